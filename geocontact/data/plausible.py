@@ -19,10 +19,13 @@ N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), 
 RAD, PA, M_PER_S = Unit("rad", "rad", 1.0), Unit("Pa", "Pa", 1.0), Unit("m/s", "m/s", 1.0)
 N_PER_M, N_PER_MM = Unit("N/m", "N/m", 1.0), Unit("N/mm", "N/m", 1e3)
 N_S_PER_M, N_S_PER_MM = Unit("N s/m", "N s/m", 1.0), Unit("N s/mm", "N s/m", 1e3)
+N_M, N_M_S = Unit("N m", "N m", 1.0), Unit("N m s/rad", "N m s/rad", 1.0)
+KG_M, KG_M2 = Unit("kg m", "kg m", 1.0), Unit("kg m^2", "kg m^2", 1.0)
+N_MM, N_MM_S = Unit("N mm", "N m", 1e-3), Unit("N mm s/rad", "N m s/rad", 1e-3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
 OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
-KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, KHZ, G, TONNE)
+KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, N_MM, N_MM_S, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
 
 ROUNDING = 1e-9
@@ -197,6 +200,13 @@ DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (0.0, 1e4))
 SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
+
+DEVICE = "hinges and parts of worn devices"
+VISCOUS = Plausible("the viscous friction of a hinge of a device", N_M_S, (0.0, 500.0), (0.01, 50.0), why=DEVICE)
+COULOMB = Plausible("the Coulomb friction of a hinge of a device", N_M, (0.0, 500.0), (0.01, 50.0), why=DEVICE)
+FIRST_MOMENT = Plausible("the first moment of a part of a device", KG_M, (-50.0, 50.0), (-10.0, 10.0), why=DEVICE)
+INERTIA = Plausible("the moment of inertia of a part of a device", KG_M2, (0.0, 50.0), (1e-3, 5.0), why=DEVICE)
+PART = Plausible("the mass of a part of a device", KG, (0.0, 100.0), (0.05, 20.0), why=DEVICE)
 
 CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (0.5, 100.0), or_zero=True)
 BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))

@@ -169,18 +169,6 @@ def of_bounds(values: Mapping[str, tuple[float, float, float]], allowed: Iterabl
                 yield Doubt(f"{name} is on the {where} bound of its search, {end:.4g}", False)
 
 
-def of_physics(
-    intervals: Mapping[str, tuple[float, float]], possible: Mapping[str, tuple[float, float]], units: Mapping[str, str]
-) -> Iterable[Doubt]:
-    """A doubt for every interval that lies wholly outside of what the quantity can be."""
-    for name, (lower, upper) in intervals.items():
-        low, high = possible.get(name, (-np.inf, np.inf))
-        if upper < low or lower > high:
-            unit = f" {units[name]}" if units.get(name) else ""
-            what = f"{name} is {lower:.3g} to {upper:.3g}{unit}, which is not possible"
-            yield Doubt(f"{what}: is a sign turned, or a unit another one?", True)
-
-
 def of_range(what: str, share: float, whole: str = "the time") -> Iterable[Doubt]:
     """A doubt for a share of the samples in which the model does not hold; `what` ends in "for": "outside … for".
 

@@ -8,14 +8,18 @@ from scipy.signal import lfilter
 
 from geocontact.analyses.frame.collector import collecting, judge, say
 from geocontact.analyses.frame.record import Record
+from geocontact.data.plausible import VISCOUS
 from geocontact.identify.goodness_of_fit import (
     Doubt,
     GoodnessOfFit,
     of_bounds,
-    of_physics,
+    of_low_r2,
+    of_many_r2,
     of_r2,
     of_range,
     of_residual,
+    of_size,
+    of_verdict,
     residual_test,
 )
 
@@ -65,10 +69,31 @@ def test_each_reason() -> None:
         "k is on the upper bound of its search, 5"
     ]
     assert not list(of_bounds({"k": (5.0, 1.0, 5.0)}, allowed=("k",)))
-    (turned,) = of_physics({"friction": (-3.2, -2.8)}, {"friction": (0.0, np.inf)}, {"friction": "N m s/rad"})
-    assert turned.contradicts and "-3.2 to -2.8 N m s/rad" in turned.what
-    assert not list(of_physics({"friction": (-3.2, 0.1)}, {"friction": (0.0, np.inf)}, {}))
+    (turned,) = of_size("friction", (-3.2, -2.8), VISCOUS)
+    assert turned.contradicts and "-3.2 N m s/rad to -2.8 N m s/rad, which cannot be the viscous" in turned.what
+    assert not list(of_size("friction", (-3.2, 0.1), VISCOUS)), "an interval that reaches what is possible is no fault"
+    assert not list(of_size("friction", (np.nan, np.nan), VISCOUS))
+    (large,) = of_size("friction", (2800.0, 3200.0), VISCOUS)
+    (small,) = of_size("friction", (0.0028, 0.0032), VISCOUS)
+    assert (large.contradicts, small.contradicts) == (True, False) and "unusual" in small.what
     assert [d.contradicts for share in (0.0, 0.1, 0.9) for d in of_range("out of the cuff for", share)] == [False, True]
+
+
+def test_members_of_a_group_contradict_it_together() -> None:
+    """Half of them or more; a constant is the mean of each member's own data."""
+    assert not list(of_many_r2("force", {"a": 0.0, "b": 0.9, "c": np.nan}))
+    (one,) = of_many_r2("force", {"a": -0.1, "b": 0.9, "c": 0.8})
+    (half,) = of_many_r2("force", {"a": -0.1, "b": 0.9})
+    (alone,) = of_many_r2("force", {"a": -0.1})
+    assert [each.contradicts for each in (one, half, alone)] == [False, True, True]
+    assert "in 1 of 3: a (-0.10)" in one.what and "in a (-0.10)" in alone.what
+    assert [d.contradicts for r2 in (-0.1, 0.0, 0.4, 0.5) for d in of_low_r2("force", r2)] == [True, False, False]
+
+
+def test_a_verdict_that_its_interval_turns_is_doubtful() -> None:
+    (open_one,) = of_verdict("the gain", (-0.1, 0.3), 0.0)
+    assert not open_one.contradicts and "the interval -0.1 to 0.3 reaches the other verdict" in open_one.what
+    assert not list(of_verdict("the gain", (0.1, 0.3), 0.0))
 
 
 def test_outcome_is_the_worst_of_its_doubts() -> None:

@@ -64,13 +64,13 @@ def say(text: str) -> None:
     current().say(text)
 
 
-def judge(fit: GoodnessOfFit) -> None:
-    """Keep whether the result agrees with its data: in `run.json`, and a doubt as a warning.
+def judge(fit: GoodnessOfFit, *, warned: bool = False) -> None:
+    """Keep whether the result agrees with its data: in `run.json`, and a doubt as a warning, unless it was one already.
 
     What contradicts the data is the first of all sentences, and the command ends with 1.
     """
     current().judge(fit)
-    if fit.outcome == "doubtful":
+    if fit.outcome == "doubtful" and not warned:
         reserve(fit.words)
 
 

@@ -19,9 +19,9 @@ from geocontact.analyses.frame.bodies import (
     read_body,
     refuse_two_spaces,
 )
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.shared_options import medial_side
-from geocontact.analyses.knee.settle.options import SettleOptions
+from geocontact.analyses.knee.settle.options import LOAD, SettleOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.knee_angles import angles_of_tibia
@@ -207,6 +207,11 @@ def _load(o: SettleOptions, motion: Motion) -> Float[np.ndarray, " t"]:
         when = float(motion.time[np.argmin(load)])
         what = f"the load is {load.min():.4g} N at {when:g} s: nothing presses the bodies together"
         raise InputError(o.forces, "", what, "cut the motion to times under load")
+    largest = float(load.max())
+    if refusal := LOAD.refusal(largest):
+        raise InputError(o.forces, "total", *refusal)
+    if doubt := LOAD.doubt(largest):
+        reserve(f"{o.forces.name}: {doubt}")
     return np.asarray(load)
 
 

@@ -22,7 +22,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.collector import judge, listener, note, reserve, say
 from geocontact.analyses.frame.contact_pressures import PressureMap, pressure_figure, write_contact_loads
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
@@ -32,6 +32,7 @@ from geocontact.analyses.knee.settle.equilibrium import SIDES, Settled, SettleIn
 from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.data.errors import InputError
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
 from geocontact.loads.settling_potential import NAMES, coordinates_of
@@ -156,6 +157,9 @@ class SettleResult(Result):
 
 BALANCED = 0.01  # of the work; a larger difference is a reservation
 STRAINED = 0.2  # largest strain that the linear law is trusted to
+WHOLE = 1.0  # strain at which nothing is left of the layer
+UNBALANCED = 0.1  # of the work; from a larger difference on the equilibrium is none
+SATURATED = 0.99  # of the layer's area
 NAMED = 8  # frames that a warning names
 
 
@@ -171,10 +175,10 @@ def run(i: SettleInputs, o: SettleOptions) -> SettleResult:
         frames = settle_along(i.bed, i.fixed, wanted, i.load, i.springs, i.free, each)
     settled = Settled(i, tuple(frames), o.side)
     _refuse_nowhere(i, settled)
-    _warn_of_lost(i, settled)
     heaviest = settled.heaviest
     rest = frames[heaviest].rest
     balance = None if rest is None else energy_balance(i.bed, frames[heaviest].pull, rest, i.free)
+    judge(goodness_of(i, settled, balance))
     _summarise(i, settled, balance)
     say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
     return SettleResult(options=o, settled=settled, balance=balance)
@@ -202,14 +206,29 @@ def _refuse_nowhere(i: SettleInputs, s: Settled) -> None:
     raise InputError("", "`free`", what, "let fewer coordinates settle, or give `springs`")
 
 
-def _warn_of_lost(i: SettleInputs, s: Settled) -> None:
+def goodness_of(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> GoodnessOfFit:
+    """Frames without rest, strains beyond the law, a layer that is pressed all over, energy that is not balanced."""
     missed = [k for k, frame in enumerate(s.frames) if frame.rest is None]
     stuck = [k for k, frame in enumerate(s.frames) if frame.rest is not None and not frame.converged]
+    most = len(missed) + len(stuck) >= MUCH * len(s.frames)
+    doubts = []
     for frames, what in ((missed, "no contact found"), (stuck, "did not come to rest")):
         if frames:
             times = ", ".join(f"{i.motion.time[k]:g}" for k in frames[:NAMED])
             more = ", …" if len(frames) > NAMED else ""
-            reserve(f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty")
+            line = f"{len(frames)} of {len(s.frames)} frames: {what} (at {times}{more} s); their rows are empty"
+            doubts.append(Doubt(line, most, len(frames) / len(s.frames)))
+    strain = s.largest_strain
+    if i.bed.layer.law == "linear" and strain > STRAINED:
+        line = f"the strain of the layer is up to {strain:.0%}: use `foundation` logarithmic"
+        doubts.append(Doubt(line, strain >= WHOLE, strain))
+    whole = float(np.sum(i.bed.layer.pieces.area))
+    saturated = float(np.mean(s.areas[s.kept] >= SATURATED * whole))
+    doubts += of_range("all of the layer is under pressure, so that the contact ends with it, for", saturated)
+    if balance is not None and balance.difference > BALANCED:
+        line = f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`"
+        doubts.append(Doubt(line, balance.difference > UNBALANCED, balance.difference))
+    return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area", "energy"))
 
 
 def _between(values: Float[np.ndarray, " t"], form: str) -> str:
@@ -227,8 +246,6 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> No
         f"{_between(100.0 * shares, '.0f')} % of the force medial"
     )
     strain = s.largest_strain
-    if i.bed.layer.law == "linear" and strain > STRAINED:
-        reserve(f"the strain of the layer is up to {strain:.0%}: use `foundation` logarithmic")
     found: dict[str, object] = {
         "frames": len(s.frames),
         "frames_at_rest": int(s.converged.sum()),
@@ -252,8 +269,6 @@ def _summarise(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> No
             f"work of the load {balance.work * 1e3:.4g} mJ, energy stored {balance.stored * 1e3:.4g} mJ: "
             f"{100.0 * balance.difference:.2g} % apart{way}"
         )
-        if balance.difference > BALANCED:
-            reserve(f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`")
     note("equilibrium", found)
 
 

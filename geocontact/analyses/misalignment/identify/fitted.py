@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.frame.collector import if_it_fits, reserve
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
@@ -184,8 +184,8 @@ class ShownInterval:
 
     @property
     def shown(self) -> str:
-        """Value, unit as far as there is one, and ends."""
-        return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))} (95 % {self.ends})"
+        """Value, unit as far as there is one, and ends; without ends where the law contradicts the forces."""
+        return f"{' '.join(filter(None, (f'{self.value:.4g}', self.unit)))}{if_it_fits(f' (95 % {self.ends})')}"
 
 
 def intervals(data: Binned, e: ElbowFit, replicates: int) -> tuple[ShownInterval, ...]:

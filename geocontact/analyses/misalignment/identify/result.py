@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve
+from geocontact.analyses.frame.collector import as_it_fits, note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -289,7 +289,7 @@ def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
     reserve_doubts(found, free)
     say_numbers(found, free)
-    summary = described(found, free)
+    summary = as_it_fits(described(found, free))
     note("elbow", summary)
     return IdentifyResult(options=o, fit=found, free=free, summary=summary)
 

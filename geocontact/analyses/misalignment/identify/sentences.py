@@ -8,15 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import judge, reserve, say
+from geocontact.analyses.frame.collector import contradicted, if_it_fits, judge, reserve, say
 from geocontact.analyses.frame.json_file import finite
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free, ShownInterval, stroke_stiffness
-from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
+from geocontact.analyses.misalignment.law_numbers import MMHG, NUMBERS, with_units
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS
 from geocontact.axis_misalignment.uncertainty import Direction
-from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2
+from geocontact.data.plausible import Plausible
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2, of_size
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
 
 FEW_STRETCHES = 12
@@ -28,6 +29,10 @@ SCALE_FREE = (
     f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
     "state l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
 )
+
+
+SIZES = {name: known for name, known in NUMBERS.ranges if isinstance(known, Plausible)}
+"""What the numbers of the law can be."""
 
 
 def reserve_doubts(found: Fitted, free: Free | None) -> None:
@@ -57,6 +62,10 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
     if bad:  # the law may be right, and the trial that was left out another one
         doubts.append(Doubt(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}", False))
+    for each in found.intervals:
+        if (known := SIZES.get(each.key)) is not None:
+            ends = each.profile.lower, each.profile.upper
+            doubts += of_size(each.words, ends, known)
     return GoodnessOfFit(tuple(doubts), ("force", *(each.name for each in found.held)))
 
 
@@ -229,11 +238,14 @@ def say_numbers(found: Fitted, free: Free | None) -> None:
         )
     if free.stiffness is not None:
         s = free.stiffness
-        say(f"k by the free joint's displacement: {s.value:.4g} N/m (SE {s.error:.2g}, {s.trials} trials)")
+        error = if_it_fits(f" (SE {s.error:.2g}, {s.trials} trials)")
+        say(f"k by the free joint's displacement: {s.value:.4g} N/m{error}")
 
 
 def answer(found: Fitted) -> list[str]:
-    """The offsets, or their ratios, and what else was identified, for the page."""
+    """Offsets or their ratios, and what else was identified, for the page; nothing where forces contradict them."""
+    if contradicted():
+        return []
     told = [f"{each.words} is {each.shown}" for each in found.intervals]
     offsets = [line for line in told if line[0] in "xy"]
     others = [line for line in told if line[0] not in "xy"]

@@ -22,7 +22,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import as_it_fits, if_it_fits, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -41,6 +41,7 @@ from geocontact.analyses.misalignment.population.drawn import (
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.analyses.misalignment.population.show import population_curves, population_page
 from geocontact.axis_misalignment.planar_joint import FATES
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
 from geocontact.identify.intervals.quantile_intervals import IntervalEstimate
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ class PopulationResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Exceedance, figure, quantiles, where the spread comes from."""
-        return {REPORT: population_page(self.drawn)}
+        return {REPORT: population_page(self.drawn, self.curves()["population"].panels)}
 
     def write_files(self, folder: Path) -> None:
         """population.json besides."""
@@ -102,22 +103,34 @@ class PopulationResult(Result):
 def run(population: Population, o: PopulationOptions) -> PopulationResult:
     """Quantiles of the largest force, how often it is above the limit, and what that depends on."""
     found = drawn(population.sampling, population.drift, o)
+    judge(goodness_of(found))
     _reserve(found)
     _report(found)
-    summary = described(found)
+    summary = as_it_fits(described(found))
     note("samples_per_second_of_one_core", found.rate)
     note("population", summary)
     return PopulationResult(options=o, drawn=found, summary=summary)
 
 
-def _reserve(d: Drawn) -> None:
+def goodness_of(d: Drawn) -> GoodnessOfFit:
+    """Samples of which the law has no force: with half of them the description is of no people.
+
+    Such samples count as beyond every force, so that a quantile is infinite from their share on.
+    """
+    doubts = []
+    share = float(np.mean(~np.isfinite(d.peak)))
     for fate, words in FATES.items():
         hit = d.fate == fate
         if hit.any():
             first = zip(SHOWN.items(), d.people[int(np.argmax(hit))], strict=True)
             told = ", ".join(f"{name} = {value * per_si:.4g} {unit}" for (name, (unit, per_si)), value in first)
             what = f"{int(hit.sum())} of {len(hit)} samples count as beyond every force: {words}"
-            reserve(f"{what} (the first: {told})")
+            asked = "; are the units of the description right?" if share >= MUCH else ""
+            doubts.append(Doubt(f"{what} (the first: {told}){asked}", share >= MUCH, float(hit.mean())))
+    return GoodnessOfFit(tuple(doubts), ("samples with a force",))
+
+
+def _reserve(d: Drawn) -> None:
     if d.indices is None:
         why = "some samples have no force, or all the same" if d.sampling.independent else "factors are correlated"
         reserve(f"no shares of the variance, for {why}: the regression on ranks is all there is")
@@ -128,12 +141,14 @@ def _report(d: Drawn) -> None:
     low = f"median {_interval_words(middle)}, 95 % below {_interval_words(high)}"
     say(f"largest |F| of {len(d.peak)} synthetic people: {low}")
     b = d.beyond
-    say(f"above {d.limit:g} N: {b.value:.4%} ({b.lower:.4%} … {b.upper:.4%})")
+    interval = if_it_fits(f" ({b.lower:.4%} … {b.upper:.4%})")
+    say(f"above {d.limit:g} N: {b.value:.4%}{interval}")
     say(f"{d.rate} samples per second of one core; grid of angles: error below {max(d.grid_error, 1e-9):.1e} N")
 
 
 def _interval_words(e: IntervalEstimate) -> str:
-    return f"{e.value:.3f} N ({e.lower:.3f} … {e.upper:.3f})" if math.isfinite(e.value) else "infinite"
+    interval = if_it_fits(f" ({e.lower:.3f} … {e.upper:.3f})")
+    return f"{e.value:.3f} N{interval}" if math.isfinite(e.value) else "infinite"
 
 
 population = Job("elbow population", PopulationOptions, read, run)

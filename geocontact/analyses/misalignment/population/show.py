@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.frame.collector import contradicted, if_it_fits
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, rounded
 from geocontact.analyses.misalignment.planar import MODEL, STATES, WITHOUT_FORCE, page_table
@@ -63,14 +66,14 @@ INFLUENCE = (
 )
 
 
-def population_page(d: Drawn) -> Page:
-    """The page of a population, whose slider goes along the forces."""
+def population_page(d: Drawn, panels: Sequence[Curves]) -> Page:
+    """The page of a population, whose slider goes along the forces; `panels` are those of `population_curves`."""
     shares = [100.0 * np.array([getattr(one, end) for one in d.exceedance]) for end in ("value", "lower", "upper")]
-    names = ("probability of more", "lower end, 95 %", "upper end, 95 %")
-    readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=True)]
+    names = ("probability of more", "lower end, 95 %", "upper end, 95 %")[: 1 if contradicted() else 3]
+    readout = [Row(name, "%", [f"{v:.4f}" for v in values]) for name, values in zip(names, shares, strict=False)]
     numbers = _numbers(d)
     sections: list[Section] = [
-        *population_curves(d).panels,
+        *panels,
         *_shares(d),
         Readout(readout, "At this force"),
         numbers,
@@ -162,8 +165,8 @@ def answer(d: Drawn) -> list[str]:
     """How many are above the limit, the middle of them, and what makes them differ."""
     b, middle, high = d.beyond, d.quantiles[0.5], d.quantiles[0.95]
     told = (
-        f"In {b.value:.2%} of {len(d.peak)} synthetic people the largest force is above {d.limit:g} N "
-        f"(95 % interval {b.lower:.2%} … {b.upper:.2%})."
+        f"In {b.value:.2%} of {len(d.peak)} synthetic people the largest force is above {d.limit:g} N"
+        f"{if_it_fits(f' (95 % interval {b.lower:.2%} … {b.upper:.2%})')}."
     )
     median = f"The median is {middle.value:.3g} N" if np.isfinite(middle.value) else "Half of them have no finite force"
     tail = f"95 % stay below {high.value:.3g} N" if np.isfinite(high.value) else "the 95 % quantile is infinite"
@@ -184,4 +187,6 @@ def _numbers(d: Drawn) -> Table:
         ("samples without a force", str(int((d.fate > 0).sum())), f"{without}: they count as beyond every force"),
         ("error of the grid of angles", f"{rounded(d.grid_error, 2)} N", "largest of those checked with a finer one"),
     ]
+    if contradicted():
+        rows = [(what, value, "") for what, value, _ in rows]
     return Table("Forces and exceedance", ("what", "value", "interval or note"), rows)

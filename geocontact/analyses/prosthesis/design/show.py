@@ -168,10 +168,7 @@ def design_page(
         *panels,
         *([] if contradicted() else [frame_table(ANSWERS, answers_in_words(answers, sweep), 3)]),
         *(frame_table(INTACT, _outcomes_in_words(tables["intact"]), 3) for _ in range("intact" in tables)),
-        *(
-            frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3)
-            for _ in range("pairs" in tables and not contradicted())
-        ),
+        *(frame_table(PAIRS, _outcomes_in_words(tables["pairs"]), 3) for _ in range(paired)),
         frame_table(
             "Between which ends each outcome lies, whatever the person keeps", _outcomes_in_words(tables["ranges"]), 3
         ),

@@ -24,13 +24,13 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.frame.collector import judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
-from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
+from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
 from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
@@ -63,6 +63,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.parameter import Number
 from geocontact.dynamics.inverse_kinematics import Poses
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.view.page.content import IntervalRow, Intervals, Page, Section, Words
 from geocontact.view.page.scene import Linkage
@@ -273,7 +274,7 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     say(f"{sum(functional)} of {len(functional)} joint centres from the functional trial")
     if moved is not None:
         errors = MarkerErrors.of(moved)
-        errors.warn(MOVING)
+        judge(goodness_of(errors))
         say(f"markers of the functional trial {errors.words(MOVING)}")
     note(
         "scale",
@@ -298,6 +299,16 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
         joints=joints,
         numbers=numbers,
     )
+
+
+def goodness_of(errors: MarkerErrors) -> GoodnessOfFit:
+    """Markers of the functional trial beside what is advised; no subject who stood model is `FAR` off."""
+    doubts = []
+    if not errors.within(MOVING):
+        asked = "is the functional trial of another person, or in another unit?" if errors.rms > FAR else ""
+        what = f"markers of the functional trial are {errors.words(MOVING)}"
+        doubts.append(Doubt(f"{what}: {asked}" if asked else what, errors.rms > FAR, errors.rms / MOVING.rms))
+    return GoodnessOfFit(tuple(doubts), ("markers of the functional trial",))
 
 
 scale = Job("prosthesis scale", ProsthesisScaleOptions, read, run)

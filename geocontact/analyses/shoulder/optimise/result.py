@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import pandas as pd
@@ -88,6 +88,8 @@ class ShoulderOptimiseResult(Result):
     taken
         What the group's profile and one factor take away, by the aim and in the mean over persons; "with sensors".
     """
+
+    claims: ClassVar[frozenset[str]] = frozenset({"gain beyond the model's error"})
 
     options: ShoulderOptimiseOptions
     cases: tuple[SupportCase, ...]

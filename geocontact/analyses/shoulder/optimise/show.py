@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import reserve, say
+from geocontact.analyses.frame.collector import contradicted, if_it_fits, judge, reserve, say
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.motion import Course
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range, of_verdict
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
 from geocontact.shoulder_exoskeleton.support.best_profile import Aim, measured
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import SLACK, ClosedLoop, SettledProfile
@@ -29,6 +30,8 @@ MODEL = (
     "Profiles are chosen by linear programs that are corrected by the simulation of every arm until both agree. The "
     "person moves as without the device."
 )
+LESS = 0.005
+"""Share by which a profile of many factors may take less than one factor does, by rounding and by the simulation."""
 MOST = 4
 """Tasks and hands whose factors are on the first screen."""
 HANDS = {"dominant": 0, "other": 1}
@@ -73,12 +76,13 @@ def answer(taken: Mapping[str, float], held: pd.DataFrame) -> list[str]:
 
     `taken` is what `say_profiles` returns, `held` the table of persons held out.
     """
+    kept = if_it_fits(" without pushing an arm up")
     best = (
-        f"{taken['taken away']:.1%} of the shoulders' torque is taken away without pushing an arm up, in the mean over "
-        f"persons; one factor for all tasks, hands and phases takes {taken['taken away by one factor']:.1%}."
+        f"{taken['taken away']:.1%} of the shoulders' torque is taken away{kept}, in the mean over persons; "
+        f"one factor for all tasks, hands and phases takes {taken['taken away by one factor']:.1%}."
     )
     found = [best]
-    if len(held):
+    if len(held) and not contradicted():
         shares, gains = (100.0 * held[name] for name in ("taken away [-]", "gain over one factor [-]"))
         sure = int(held["gain beyond the model's error"].sum())
         pushed = int((held["pushed up [-]"] > 0.0).sum())
@@ -147,6 +151,7 @@ def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial
         "worst": " of the person who gains least",
         "cvar": f" in the mean of the worst {loop.worst_share:.0%} of the cases",
     }[loop.aim]
+    judge(goodness_of(made))
     say(
         f"{made.group.value:.1%} of the shoulders' torque is removed{whose} in the simulation "
         f"({made.group.profile.value:.1%} planned){_kept(loop.limits)}; one factor for all tasks, hands and phases "
@@ -168,13 +173,29 @@ def say_profiles(made: MadeProfiles, loop: ClosedLoop, trials: Sequence[ArmTrial
             f"with factors in proportion to the weight of each person's arm {made.by_arm.value:.1%} is "
             f"removed{whose}{_out(made.by_arm)}"
         )
+    return taken
+
+
+def goodness_of(made: MadeProfiles) -> GoodnessOfFit:
+    """Profiles in the simulation against the limits that they were made to keep, and arms against their cuffs.
+
+    The answer is the profile of all persons: if it passes its limits, no arm is kept from being pushed up.
+    """
+    doubts = []
     for name, found in (("of all persons", made.group), ("of one factor", made.one), ("by arm weight", made.by_arm)):
         if found is not None and found.passed > SLACK:
-            reserve(
+            what = (
                 f"the profile {name} passes its limits by {found.passed:.2f} N m in the simulation, and none was found "
                 "that keeps them; `reserve` leaves room"
             )
-    return taken
+            doubts.append(Doubt(what, found is made.group, found.passed))
+    runs = made.group.runs
+    lost = [run for run in runs.values() if run.outcome.out_of_cuff >= MUCH]
+    doubts += of_range("the sphere is out of the cuff most of the time in", len(lost) / len(runs), "the simulations")
+    if made.group.value < made.one.value - LESS:
+        what = f"factors by phase take {made.group.value:.1%}, less than the {made.one.value:.1%} of one factor"
+        doubts.append(Doubt(f"{what}: no best profile was found", True))
+    return GoodnessOfFit(tuple(doubts), ("limits in the simulation", "spheres in their cuffs", "one factor"))
 
 
 def _out(*found: SettledProfile) -> str:
@@ -183,6 +204,8 @@ def _out(*found: SettledProfile) -> str:
 
 
 def _kept(limits: Limits) -> str:
+    if contradicted():
+        return ""
     said = " without ever pushing an arm up"
     if limits.certainty > 0.0:
         said += f", nor in {limits.certainty:.0%} of the draws of the model's errors that it was chosen with"
@@ -198,6 +221,7 @@ def say_held_out(judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, S
 
     `simulated` are the same profiles in the simulation, by trial.
     """
+    doubts = list[Doubt]()
     for person, found in judged.items():
         out = out_of_cuff_words(*(simulated[name].out_of_cuff for name in found.outcomes if name in simulated))
         low, high = found.gain_interval
@@ -206,9 +230,12 @@ def say_held_out(judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, S
             beyond = "no gain, as it pushes the arm up"
         elif found.pushed_up[1] > 0.0:
             beyond = "no sure gain, as it may push the arm up"
+        words = f"{100 * low:.1f} to {100 * high:.1f} points"
+        doubts += of_verdict(f"{person} held out, the gain over one factor", found.gain_interval, 0.0, words)
+        interval = if_it_fits(f" ({100 * low:.1f} to {100 * high:.1f}, {beyond})")
         say(
-            f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others "
-            f"({100 * low:.1f} to {100 * high:.1f}, {beyond}); pushed up {found.pushed_up[0]:.1%} of the time, by "
+            f"{person} held out: {found.reduction:.1%}, {100 * found.gain:+.1f} points over one factor of the others"
+            f"{interval}; pushed up {found.pushed_up[0]:.1%} of the time, by "
             f"{found.excess[0]:.1f} N m at most; in 95% of the draws of the model's errors up to "
             f"{found.pushed_up[1]:.1%}, by {found.excess[1]:.1f} N m{out}"
         )
@@ -217,6 +244,8 @@ def say_held_out(judged: Mapping[str, HeldOutSupport], simulated: Mapping[str, S
                 f"{person}: the profile that the others make pushes an arm up {found.pushed_up[0]:.1%} of the time, by "
                 f"{found.excess[0]:.1f} N m at most; `reserve` leaves room"
             )
+    if judged:
+        judge(GoodnessOfFit(tuple(doubts), tuple(f"{person} held out" for person in judged)))
 
 
 def say_simulated(noisy: Mapping[str, Mapping[str, SupportOutcome]], limits: Limits) -> float:

@@ -26,7 +26,8 @@ from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_tables import ran_table
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
-from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_physics
+from geocontact.data.plausible import COULOMB, FIRST_MOMENT, INERTIA, PART, VISCOUS
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_size
 from geocontact.identify.signals.filters import ORDER, UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.storage_writer import write_storage
@@ -35,7 +36,6 @@ from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.exoskeleton_torque import (
     ALONE,
-    FRICTIONS,
     MARGIN,
     TURNS,
     UNITS,
@@ -271,21 +271,31 @@ def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOption
     ]
 
 
+SIZES = {
+    "viscous friction": VISCOUS,
+    "Coulomb friction": COULOMB,
+    "first moment along x": FIRST_MOMENT,
+    "first moment along y": FIRST_MOMENT,
+    "inertia": INERTIA,
+    "mass": PART,
+}
+"""What parameters can be, by the end of their names."""
+
+
 def goodness_of(fit: ExoskeletonDynamics, spread: float, level: float) -> GoodnessOfFit:
-    """The fit against the spread of the motors' torques [N m], and friction against its sign."""
+    """The fit against the spread of the motors' torques [N m]; each parameter against the sizes of a worn device's."""
     doubts: list[Doubt] = []
     if fit.residual > POORLY * spread:
         what = f"{fit.residual:.2g} N m of the motors' torques are not explained, whose spread is {spread:.2g} N m"
         doubts.append(Doubt(f"{what}: check the names of the hinges, the signs, and that it is not worn", True))
     ends = zip(fit.names, *fit.intervals(level), fit.alone, strict=True)
-    friction = {
-        name: (float(lower), float(upper))
-        for name, lower, upper, alone in ends
-        if alone and any(kind in name for kind in FRICTIONS)
-    }
-    units = dict(zip(fit.names, UNITS, strict=True))
-    doubts += of_physics(friction, dict.fromkeys(friction, (0.0, np.inf)), units)
-    return GoodnessOfFit(tuple(doubts), ("torques of the motors", *friction))
+    tested = []
+    for name, lower, upper, alone in ends:
+        known = next((size for kind, size in SIZES.items() if name.endswith(kind)), None)
+        if alone and known is not None:
+            doubts += of_size(name, (float(lower), float(upper)), known)
+            tested.append(name)
+    return GoodnessOfFit(tuple(doubts), ("torques of the motors", *tested))
 
 
 def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResult:
