@@ -37,6 +37,7 @@ from geocontact.below_knee_prosthesis.calibration.fit import (
     residual_over_noise,
     stance_fit,
 )
+from geocontact.below_knee_prosthesis.calibration.known_numbers import Verdict
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
@@ -297,7 +298,7 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     )
 
 
-def _known_words(verdicts: Counter[str], count: int, apart: Identifiability) -> str:
+def _known_words(verdicts: Counter[Verdict], count: int, apart: Identifiability) -> str:
     return (
         f"{verdicts['known']} of {count} numbers are known, {verdicts['not identified']} not identified, "
         f"{verdicts['unknown']} unknown; {apart.verdict} (condition {apart.condition:.3g})"
