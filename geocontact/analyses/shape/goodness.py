@@ -15,7 +15,7 @@ from geocontact.geometry.fit.found import ShapeFit
 from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
 
 POOR, NONE = 0.1, 0.3
-"""Shares of the radius: root mean square of the points from which on it is doubtful; of the inliers that contradicts."""
+"""Shares of the radius: rms of the points from which on it is doubtful, rms of the inliers that contradicts."""
 MEANS = 0.1
 """Least share of the squared distances from the best plane that a curved shape explains."""
 THICK, ROUND = 0.3, 0.8
