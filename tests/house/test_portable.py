@@ -85,7 +85,13 @@ def without_encoding(node: ast.AST) -> bool:
 
 
 def _of_a_library(function: ast.Attribute) -> bool:
-    return isinstance(function.value, ast.Name) and function.value.id in ("os", "webbrowser", "tarfile", "zipfile")
+    return isinstance(function.value, ast.Name) and function.value.id in (
+        "os",
+        "webbrowser",
+        "tarfile",
+        "zipfile",
+        "archive",
+    )
 
 
 def test_nothing_of_one_system_is_taken_for_granted() -> None:
