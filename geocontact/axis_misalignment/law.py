@@ -271,6 +271,19 @@ class ElbowLaw:
         return np.asarray(_slopes(self.beta, self.rate, self.pressure, theta.copy(), numbers, fixation))
 
 
+    def offsets_under_load(
+        self, theta: Float[np.ndarray, " 8"]
+    ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
+        """Offsets x, y [m] at which the exoskeleton's axis comes to rest; finite for any finite numbers."""
+        if theta[7] == 0.0:
+            return np.full(len(self.beta), theta[1]), np.full(len(self.beta), theta[2])
+        stiffness = theta[0] * (1.0 + theta[6] * self.pressure)
+        cuff = np.column_stack([stiffness, np.full(len(self.beta), theta[5]), np.zeros(len(self.beta))])
+        none = np.zeros(len(self.beta))
+        found = yields(self.beta, self.rate, cuff, theta[7], none, (0.0, 0.0), offsets_of(theta).numbers)[0]
+        return found[:, 1].copy(), found[:, 2].copy()
+
+
 def offsets_of(theta: Float[np.ndarray, " 8"]) -> Offsets:
     """Lengths among the numbers."""
     return Offsets(l=float(theta[3]), z=float(theta[4]), x=float(theta[1]), y=float(theta[2]))

@@ -18,7 +18,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.axis_misalignment.bins import BETA, FORCE, PRESSURE, RATE, Binned
+from geocontact.axis_misalignment.beside_force import BesideForce, Sensors, beside_force
+from geocontact.axis_misalignment.bins import BETA, FORCE, MOMENT, PRESSURE, RATE, Binned
 from geocontact.axis_misalignment.compensation import DisplacementScale
 from geocontact.axis_misalignment.law import NAMES, SCALED, ElbowLaw
 from geocontact.data.elbow_recording import ElbowRecording
@@ -59,6 +60,8 @@ class ElbowProblem:
         By name, of free ones.
     scale
         What a free joint's displacement tells of the lengths; None without.
+    beside
+        Moment of the cuff and angle of the arm, as far as they were measured.
     """
 
     force: Float[np.ndarray, " n"]
@@ -67,6 +70,7 @@ class ElbowProblem:
     parameters: tuple[Parameter, ...]
     priors: Mapping[str, Prior]
     scale: DisplacementScale | None = None
+    beside: tuple[BesideForce, ...] = ()
 
     @cached_property
     def free(self) -> list[int]:
@@ -84,9 +88,20 @@ class ElbowProblem:
         return not any(p.fixed and p.start != 0.0 for p in self.parameters if p.name in SCALED)
 
     @cached_property
+    def scale_by_moment(self) -> bool:
+        """Whether a measured moment sets that factor: over the force it is a length, z."""
+        return self.scalable and "z" in self.names and any(each.channel == MOMENT for each in self.beside)
+
+    @cached_property
     def scale_free(self) -> bool:
-        """Whether nothing known sets that factor, neither a prior nor a free joint's displacement."""
-        return self.scalable and self.scale is None and not set(self.priors) & set(SCALED)
+        """Whether nothing sets that factor: no prior, no free joint's displacement, no moment of the cuff."""
+        known = self.scale is not None or self.scale_by_moment or set(self.priors) & set(SCALED)
+        return self.scalable and not known
+
+    @cached_property
+    def measured(self) -> int:
+        """How many residuals are of measured means; those of scale and priors follow."""
+        return len(self.force) + sum(len(each.values) for each in self.beside)
 
     def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 8"]:
         """All numbers, given the free ones."""
@@ -95,19 +110,23 @@ class ElbowProblem:
         return full
 
     def residual(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " m"]:
-        """What the law is too large by, in standard deviations; then what scale and priors are missed by in theirs."""
+        """What the law is too large by, in standard deviations: force, then what else was measured; then what scale and
+        priors are missed by in theirs.
+        """
         theta = self.theta(values)
         off = (self.law.force(theta) - self.force) * self.weight
+        others = [each.residual(theta) for each in self.beside]
         scale = [] if self.scale is None else [self.scale.residual(theta)]
-        return np.concatenate([off, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
+        return np.concatenate([off, *others, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
 
     def jacobian(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivative of the residual."""
         theta = self.theta(values)
         yields = not self.parameters[NAMES.index("c")].fixed
         slopes = self.law.slopes(theta, fixation=yields)[:, self.free] * self.weight[:, None]
+        others = [each.slopes(theta, fixation=yields)[:, self.free] for each in self.beside]
         scale = [] if self.scale is None else [self.scale.slopes(theta)[None, self.free]]
-        return np.vstack([slopes, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
+        return np.vstack([slopes, *others, *scale, np.diag(1.0 / self._prior_sd)[self._known]])
 
     def held(self, name: str, value: float) -> ElbowProblem:
         """The same problem with one number known; its prior stays, as a constant that no step changes."""
@@ -116,13 +135,16 @@ class ElbowProblem:
         return replace(self, parameters=parameters, priors={n: p for n, p in self.priors.items() if n != name})
 
     def measuring(self, force: Float[np.ndarray, " n"]) -> ElbowProblem:
-        """The same problem with other mean forces."""
-        return replace(self, force=force)
+        """The same problem with other mean forces, and nothing measured beside them."""
+        return replace(self, force=force, beside=())
 
-    def drawn(self, force: Float[np.ndarray, " n"], rng: np.random.Generator) -> ElbowProblem:
-        """The same problem with other mean forces, and with what is known otherwise as it could have been found."""
+    def drawn(
+        self, force: Float[np.ndarray, " n"], beside: Sequence[BesideForce], rng: np.random.Generator
+    ) -> ElbowProblem:
+        """The same problem with other measured means, and with what is known otherwise as it could have been found."""
         priors = {n: Prior(float(rng.normal(p.mean, p.sd)), p.sd) for n, p in self.priors.items()}
-        return replace(self, force=force, priors=priors, scale=None if self.scale is None else self.scale.drawn(rng))
+        scale = None if self.scale is None else self.scale.drawn(rng)
+        return replace(self, force=force, beside=tuple(beside), priors=priors, scale=scale)
 
     def searched(self, start: Float[np.ndarray, " p"]) -> LevenbergMarquardtResult:
         """Least squares from one start."""
@@ -182,14 +204,19 @@ class ElbowFit:
 
 
 def problem_of(
-    data: Binned, parameters: Sequence[Parameter], priors: Mapping[str, Prior], scale: DisplacementScale | None = None
+    data: Binned,
+    parameters: Sequence[Parameter],
+    priors: Mapping[str, Prior],
+    scale: DisplacementScale | None = None,
+    sensors: Sensors | None = None,
 ) -> ElbowProblem:
-    """What the bins of some trials ask."""
+    """What the bins of some trials ask; moment and angle of the arm count where something is said of their `sensors`."""
     means, weight = data.cells.means, np.sqrt(data.information)
-    return ElbowProblem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale)
+    others = () if sensors is None else beside_force(data, sensors)
+    return ElbowProblem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale, others)
 
 
-def law_at(means: Float[np.ndarray, "n 5"]) -> ElbowLaw:
+def law_at(means: Float[np.ndarray, "n c"]) -> ElbowLaw:
     """The law at the means of cells or visits."""
     return ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
 

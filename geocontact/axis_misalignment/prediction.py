@@ -64,7 +64,8 @@ def each_left_out(data: Binned, e: ElbowFit) -> list[Held]:
         return []
     found = []
     for trial, name in enumerate(data.names):
-        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors, e.problem.scale)
+        sensors = e.problem.beside[0].sensors if e.problem.beside else None
+        problem = problem_of(data.without(trial), e.problem.parameters, e.problem.priors, e.problem.scale, sensors)
         theta = problem.theta(problem.searched(e.values).values)
         found.append(held_out(name, data.only(trial), theta))
     return found

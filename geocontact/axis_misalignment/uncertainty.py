@@ -83,7 +83,7 @@ def covariance(data: Binned, e: ElbowFit) -> Covariance:
     inverse = spread(jacobian)
     scores, stretches = _scores(data, e)
     middle = scores.T @ scores * stretches / max(stretches - 1, 1)
-    known = jacobian[len(data.cells.count) :]
+    known = jacobian[e.problem.measured :]
     matrix = inverse @ (middle + known.T @ known) @ inverse
     return Covariance(matrix, inverse, max(stretches - len(e.values), 1))
 
@@ -167,7 +167,8 @@ def wild_bootstrap(data: Binned, e: ElbowFit, count: int, seed: int = 0) -> Floa
     for k in range(count):
         signs = rng.choice([-1.0, 1.0], stretches)[stretch]
         drawn = np.bincount(data.cells.of_visit, wider * signs * share, len(data.cells.count))
-        found[k] = best_from(e.problem.drawn(e.predicted + drawn, rng), minima).values
+        others = [each.redrawn(e.theta, wider * signs) for each in e.problem.beside]
+        found[k] = best_from(e.problem.drawn(e.predicted + drawn, others, rng), minima).values
     return found
 
 
@@ -175,9 +176,13 @@ def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
     """Gradient of half the sum of squares, stretch by stretch, and how many stretches there are."""
     v = data.visits
     off = v.means[:, FORCE] - law_at(v.means).force(e.theta)
-    cell = data.cells.of_visit
-    slopes = e.problem.jacobian(e.values)[: len(data.cells.count)]
-    share = (v.count / data.cells.count[cell] * off * e.problem.weight[cell])[:, None] * slopes[cell]
+    cell, jacobian = data.cells.of_visit, e.problem.jacobian(e.values)
+    first = len(data.cells.count)
+    share = (v.count / data.cells.count[cell] * off * e.problem.weight[cell])[:, None] * jacobian[:first][cell]
+    for each in e.problem.beside:
+        last = first + len(each.values)
+        share[each.visit] -= each.scores(e.theta, jacobian[first:last])
+        first = last
     numbers, stretch = np.unique(v.stretch, return_inverse=True)
     return np.column_stack([np.bincount(stretch, column) for column in share.T]), len(numbers)
 

@@ -28,6 +28,12 @@ class ElbowRecording:
         Of the cuff [Pa]; None where it was not recorded.
     torque
         Of the actuator about the exoskeleton's axis, flexion positive [N m]; None where it was not recorded.
+    moment
+        Of the cuff on the forearm about the link's end, flexion positive [N m]; None where it was not recorded.
+    alpha
+        Angle of the person's elbow, flexion positive [rad]; None where it was not recorded.
+    target
+        Angle that the person was to follow with `beta` [rad]; None where it was not recorded.
     """
 
     name: str
@@ -37,6 +43,9 @@ class ElbowRecording:
     displacement: Float[np.ndarray, " t"] | None = None
     pressure: Float[np.ndarray, " t"] | None = None
     torque: Float[np.ndarray, " t"] | None = None
+    moment: Float[np.ndarray, " t"] | None = None
+    alpha: Float[np.ndarray, " t"] | None = None
+    target: Float[np.ndarray, " t"] | None = None
 
     @property
     def rate(self) -> Float[np.ndarray, " t"]:

@@ -18,6 +18,10 @@ from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
 
 
+SMOOTHED, KEPT = ("displacement", "torque", "moment", "alpha"), ("pressure", "target")
+"""Channels beside angle and force that a filter smooths, and that it only takes to even times."""
+
+
 def recordings(
     role: str,
     paths: Sequence[Path],
@@ -40,7 +44,7 @@ def recordings(
 
 
 def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
-    """Angle, force and displacement without what lies above the cut-off, at even times."""
+    """Channels without what lies above the cut-off, at even times; pressure and target as they were."""
     time, step = even_times(r.time)
 
     def smooth(values: np.ndarray) -> np.ndarray:
@@ -57,7 +61,6 @@ def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
         time=time,
         beta=smooth(r.beta),
         force=smooth(r.force),
-        displacement=None if r.displacement is None else smooth(r.displacement),
-        pressure=None if r.pressure is None else at_times(r.time, r.pressure, time, step),
-        torque=None if r.torque is None else smooth(r.torque),
+        **{name: smooth(values) for name in SMOOTHED if (values := getattr(r, name)) is not None},
+        **{name: at_times(r.time, values, time, step) for name in KEPT if (values := getattr(r, name)) is not None},
     )

@@ -56,8 +56,9 @@ def read_axis_drift(path: Path) -> DriftTable:
 
 
 BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE = "beta", "force", "displacement", "pressure", "torque"
-CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE)
-"""What is looked for, by these names unless mapped; the last three may be missing."""
+MOMENT, ALPHA, TARGET = "moment", "alpha", "target"
+CHANNELS = (BETA, FORCE, DISPLACEMENT, PRESSURE, TORQUE, MOMENT, ALPHA, TARGET)
+"""What is looked for, by these names unless mapped; all but the first two may be missing."""
 
 Mapped = Mapping[str, tuple[float, str]]
 
@@ -73,6 +74,10 @@ TIGHTEST = 1000.0 * DIMENSIONS["Pa"]["mmHg"]
 """No cuff is pumped to more [Pa]."""
 HARDEST = 1000.0
 """No actuator of an arm turns harder [N m]."""
+TWISTED = 200.0
+"""No cuff around a forearm is twisted harder [N m]."""
+AGAINST = -0.5
+"""Correlation with the exoskeleton's angle below which another angle has its sign turned."""
 
 
 def read_elbow_recording(
@@ -102,8 +107,18 @@ def read_elbow_recording(
     beta = sign * angles_of(table, [name], angles)[:, 0]
     require_elbow(beta, table.file, name)
     force = _force(table, source[FORCE], unit)
-    joint, pressure = _length(table, source[DISPLACEMENT]), _pressure(table, source[PRESSURE])
-    return ElbowRecording(path.stem, table.time, beta, force, joint, pressure, _torque(table, source[TORQUE]))
+    return ElbowRecording(
+        path.stem,
+        table.time,
+        beta,
+        force,
+        _length(table, source[DISPLACEMENT]),
+        _pressure(table, source[PRESSURE]),
+        _torque(table, source[TORQUE]),
+        _moment(table, source[MOMENT]),
+        _angle_beside(table, source[ALPHA], angles, beta),
+        _angle_beside(table, source[TARGET], angles, beta),
+    )
 
 
 def require_elbow(beta: Float[np.ndarray, " t"], file: str, name: str) -> None:
@@ -165,6 +180,27 @@ def _torque(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndar
     return (
         None if source is None else _bounded(table, source, "N m", "N m", HARDEST, "an actuator of an arm turns with")
     )
+
+
+def _moment(table: TextTable, source: tuple[float, str] | None) -> Float[np.ndarray, " t"] | None:
+    return None if source is None else _bounded(table, source, "N m", "N m", TWISTED, "any cuff passes on")
+
+
+def _angle_beside(
+    table: TextTable, source: tuple[float, str] | None, angles: str | None, beta: Float[np.ndarray, " t"]
+) -> Float[np.ndarray, " t"] | None:
+    """An angle that goes with `beta` [rad]; refused where it runs against it, or is that of no elbow."""
+    if source is None:
+        return None
+    sign, name = source
+    found = np.asarray(sign * angles_of(table, [name], angles)[:, 0])
+    require_elbow(found, table.file, name)
+    with np.errstate(invalid="ignore"):
+        along = float(np.corrcoef(found, beta)[0, 1])
+    if along < AGAINST:
+        what = f"angle '{name}' runs against the exoskeleton's (correlation {along:.2f})"
+        raise InputError(table.file, "", what, "is its sign turned, or is it the angle between the bones?")
+    return found
 
 
 def _bounded(

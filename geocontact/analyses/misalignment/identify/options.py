@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, ClassVar
 
 from geocontact.analyses.frame.marks import Degrees, Requires, Spelled, Typed
-from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, require_names
+from geocontact.analyses.misalignment.law_numbers import MEANS, NUMBERS, TOPS, TURNING, require_names
 from geocontact.analyses.misalignment.shared_options import ColumnOptions
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import BIN
@@ -44,8 +44,8 @@ class IdentifyOptions(ColumnOptions):
     Parameters
     ----------
     recordings
-        Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; pressure
-        as far as it is there.
+        Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; as far
+        as they are there also pressure, moment (of the cuff about the link's end), alpha (angle of the arm).
 
     Further recordings
     ------------------
@@ -71,6 +71,15 @@ class IdentifyOptions(ColumnOptions):
     free
         Additional free parameters besides k, x, y, l, z: b (damping), s (stiffness over cuff pressure), c (compliance
         of the upper arm's fixation, 0 unless known or free).
+
+    What was measured beside the force
+    ----------------------------------
+    turning
+        Stiffness of the cuff against turning by γ [N m/rad], part of a measured moment. By default it is identified from
+        the moment.
+    alpha_zeroed
+        The measured angle of the arm and that of the exoskeleton have one zero: its level counts, and not only its
+        change.
 
     How it is fitted
     ----------------
@@ -98,6 +107,8 @@ class IdentifyOptions(ColumnOptions):
     bounds: Bounds | None = None
     start: Numbers | None = None
     free: Names | None = None
+    turning: Annotated[float | None, TURNING] = None
+    alpha_zeroed: bool = False
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
     box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0), BIN] = TEN_DEGREES
     bootstrap: int = 500

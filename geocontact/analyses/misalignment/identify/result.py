@@ -46,6 +46,7 @@ from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
 from geocontact.analyses.misalignment.identify.show import fit_page
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
+from geocontact.axis_misalignment.beside_force import Sensors
 from geocontact.axis_misalignment.bins import Binned, binned
 from geocontact.axis_misalignment.compensation import bin_means
 from geocontact.axis_misalignment.law import NAMES, CuffLoads, cuff_loads, offsets_of, yielded
@@ -283,7 +284,8 @@ def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     require_bins(o.recordings, data)
     free = free_joint(o, recorded.unlocked, data)
     priors = {name: Prior(*pair) for name, pair in (o.prior or {}).items()}
-    problem = problem_of(data, recorded.parameters, priors)
+    sensors = Sensors(o.turning, o.alpha_zeroed)
+    problem = problem_of(data, recorded.parameters, priors, sensors=sensors)
     if problem.scale_free and free is not None:
         problem = _scaled_by(problem, free)
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)

@@ -1,0 +1,179 @@
+"""What was measured beside the force: the cuff's moment, which sets the scale of k and the lengths, and the arm's angle.
+
+With F the measured force, of the model in terms of the link's end (`law`)
+
+    M = κ γ - F z/cos² γ        moment of the cuff on the forearm
+    α = β - γ + zero            angle of the person's elbow
+
+γ depends on x/l, y/l alone, so that M/F has a length in it, z, while α has only ratios. κ, the cuff's stiffness against
+turning, is a nuisance unless it is known: the moment is linear in it. So is the zero of α, one for each trial, unless
+the sensor was zeroed at the stretched arm. Both are taken out of the residual (variable projection: Golub and Pereyra
+1973, SIAM J Numer Anal 10, 413), so that they cost what they cost and are no number of the law.
+
+The measured force stands in M, not the modelled one: what a person adds to the force goes through the cuff as well, and
+is in the moment. Where the fixation yields (c > 0) γ is that under load, without the part of κ in the load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from geocontact.axis_misalignment.bins import ALPHA, BETA, FORCE, MOMENT, PRESSURE, RATE, Binned
+from geocontact.axis_misalignment.explicit import NEAR_POLE
+from geocontact.axis_misalignment.law import STEP, ElbowLaw
+
+LENGTHS, ALL = (1, 2, 3, 4), tuple(range(8))
+"""Places of the numbers that γ and z change with: the lengths, and with a fixation that yields all of them."""
+
+
+@dataclass(frozen=True)
+class Sensors:
+    """What is known of them.
+
+    Parameters
+    ----------
+    turning
+        Stiffness κ of the cuff against turning [N m/rad]; None where it is looked for.
+    zeroed
+        Whether the arm's angle has the zero of the exoskeleton's; its level counts then, else its change alone.
+    """
+
+    turning: float | None = None
+    zeroed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class BesideForce:
+    """Mean moments or angles of cells, and of the visits that they consist of.
+
+    Parameters
+    ----------
+    channel
+        MOMENT or ALPHA.
+    cells, visits
+        Means of all channels.
+    trial, of_visit
+        Trial of each cell; the cell that each visit is a part of.
+    visit
+        Which of all visits each one is.
+    share
+        Of its cell's samples.
+    values
+        Mean moment [N m] or angle [rad] of each cell.
+    weight
+        Root of each cell's information.
+    """
+
+    channel: int
+    sensors: Sensors
+    cells: Float[np.ndarray, "n c"]
+    visits: Float[np.ndarray, "v c"]
+    trial: Int[np.ndarray, " n"]
+    of_visit: Int[np.ndarray, " v"]
+    visit: Int[np.ndarray, " v"]
+    share: Float[np.ndarray, " v"]
+    values: Float[np.ndarray, " n"]
+    weight: Float[np.ndarray, " n"]
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return "moment of the cuff" if self.channel == MOMENT else "angle of the arm"
+
+    def model(
+        self, theta: Float[np.ndarray, " 8"], means: Float[np.ndarray, "m c"], trial: Int[np.ndarray, " m"]
+    ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, "m q"]]:
+        """Of these means without what is nuisance, and by how much each nuisance adds."""
+        law = ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
+        x, y = law.offsets_under_load(theta)
+        s, c = np.sin(law.beta), np.cos(law.beta)
+        top, bottom = x * c + y * s, theta[3] + y * c - x * s
+        gamma = np.arctan2(top, bottom)
+        if self.channel == ALPHA:
+            zeros = np.zeros((len(trial), 0)) if self.sensors.zeroed else trial[:, None] == np.unique(self.trial)
+            return law.beta - gamma, zeros.astype(float)
+        flat = np.maximum(np.abs(bottom), NEAR_POLE)
+        moment = -means[:, FORCE] * theta[4] * (top**2 + flat**2) / flat**2
+        if self.sensors.turning is None:
+            return moment, gamma[:, None]
+        return moment + self.sensors.turning * gamma, np.zeros((len(gamma), 0))
+
+    def nuisance(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " q"]:
+        """Best κ [N m/rad], or zero of each trial's angle [rad]."""
+        modelled, linear = self.model(theta, self.cells, self.trial)
+        return self._best(modelled, linear)
+
+    def nuisance_error(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " q"]:
+        """Standard errors of the nuisance with the numbers of the law held."""
+        _, linear = self.model(theta, self.cells, self.trial)
+        return np.asarray(1.0 / np.linalg.norm(linear * self.weight[:, None], axis=0))
+
+    def fitted(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " n"]:
+        """Of each cell, with the best nuisance."""
+        modelled, linear = self.model(theta, self.cells, self.trial)
+        return np.asarray(modelled + linear @ self._best(modelled, linear))
+
+    def residual(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " n"]:
+        """What the model is too large by, in standard deviations."""
+        return np.asarray(self.weight * (self.fitted(theta) - self.values))
+
+    def slopes(self, theta: Float[np.ndarray, " 8"], *, fixation: bool) -> Float[np.ndarray, "n 8"]:
+        """Derivative of the residual with respect to each number of the law."""
+        out = np.zeros((len(self.values), len(theta)))
+        for k in ALL if fixation or theta[7] != 0.0 else LENGTHS:
+            h = STEP * (theta[3] if k in LENGTHS else 1.0 / theta[0] if k == 7 else max(abs(theta[k]), STEP))
+            above, below = theta.copy(), theta.copy()
+            above[k], below[k] = theta[k] + h, theta[k] - h
+            out[:, k] = (self.residual(above) - self.residual(below)) / (2.0 * h)
+        return out
+
+    def off_visits(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " v"]:
+        """Measured less modelled mean of each visit, with the cells' best nuisance, times its share of the cell."""
+        modelled, linear = self.model(theta, self.visits, self.trial[self.of_visit])
+        off = self.visits[:, self.channel] - modelled - linear @ self.nuisance(theta)
+        return np.asarray(self.share * off)
+
+    def scores(self, theta: Float[np.ndarray, " 8"], slopes: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "v p"]:
+        """Gradient of half the sum of squares, visit by visit; `slopes` are those of the residual."""
+        weighted = self.off_visits(theta) * self.weight[self.of_visit]
+        return np.asarray(-weighted[:, None] * slopes[self.of_visit])
+
+    def redrawn(self, theta: Float[np.ndarray, " 8"], factor: Float[np.ndarray, " all"]) -> BesideForce:
+        """The fitted values with every visit's residual times its factor."""
+        off = factor[self.visit] * self.off_visits(theta)
+        return replace(self, values=self.fitted(theta) + np.bincount(self.of_visit, off, len(self.values)))
+
+    def _best(self, modelled: Float[np.ndarray, " n"], linear: Float[np.ndarray, "n q"]) -> Float[np.ndarray, " q"]:
+        if not linear.shape[1]:
+            return np.zeros(0)
+        scaled, off = linear * self.weight[:, None], self.weight * (self.values - modelled)
+        return np.asarray(np.linalg.lstsq(scaled, off, rcond=None)[0])
+
+
+def beside_force(data: Binned, sensors: Sensors) -> tuple[BesideForce, ...]:
+    """Moment and angle as far as they were recorded, in that order."""
+    there = np.isfinite(data.cells.means).any(axis=0)
+    return tuple(_beside(data, sensors, channel) for channel in (MOMENT, ALPHA) if there[channel])
+
+
+def _beside(data: Binned, sensors: Sensors, channel: int) -> BesideForce:
+    cells, visits = data.cells, data.visits
+    kept = np.isfinite(cells.means[:, channel])
+    place = np.cumsum(kept) - 1
+    visit = np.flatnonzero(kept[cells.of_visit])
+    of_visit = cells.of_visit[visit]
+    return BesideForce(
+        channel=channel,
+        sensors=sensors,
+        cells=cells.means[kept],
+        visits=visits.means[visit],
+        trial=cells.trial[kept],
+        of_visit=place[of_visit],
+        visit=visit,
+        share=visits.count[visit] / cells.count[of_visit],
+        values=cells.means[kept, channel],
+        weight=np.sqrt(data.information_of(data.beside[channel]))[kept],
+    )
