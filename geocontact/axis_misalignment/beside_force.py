@@ -25,10 +25,6 @@ from geocontact.axis_misalignment.bins import ALPHA, BETA, FORCE, MOMENT, PRESSU
 from geocontact.axis_misalignment.explicit import NEAR_POLE
 from geocontact.axis_misalignment.law import STEP, ElbowLaw
 
-LENGTHS, ALL = (1, 2, 3, 4), tuple(range(8))
-"""Places of the numbers that γ and z change with: the lengths, and with a fixation that yields all of them."""
-
-
 @dataclass(frozen=True)
 class Sensors:
     """What is known of them.
@@ -86,20 +82,20 @@ class BesideForce:
     def model(
         self, theta: Float[np.ndarray, " 8"], means: Float[np.ndarray, "m c"], trial: Int[np.ndarray, " m"]
     ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, "m q"]]:
-        """Of these means without what is nuisance, and by how much each nuisance adds."""
-        law = ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
-        x, y = law.offsets_under_load(theta)
-        s, c = np.sin(law.beta), np.cos(law.beta)
-        top, bottom = x * c + y * s, theta[3] + y * c - x * s
-        gamma = np.arctan2(top, bottom)
+        """Of these means without what is nuisance, and by how much each nuisance adds; its columns are orthogonal."""
+        _, _, _, tangent = _link(theta, means)
+        gamma = np.arctan(tangent)
         if self.channel == ALPHA:
-            zeros = np.zeros((len(trial), 0)) if self.sensors.zeroed else trial[:, None] == np.unique(self.trial)
-            return law.beta - gamma, zeros.astype(float)
-        flat = np.maximum(np.abs(bottom), NEAR_POLE)
-        moment = -means[:, FORCE] * theta[4] * (top**2 + flat**2) / flat**2
+            return means[:, BETA] - gamma, self._zeros(trial)
+        moment = -means[:, FORCE] * theta[4] * (1.0 + tangent**2)
         if self.sensors.turning is None:
             return moment, gamma[:, None]
         return moment + self.sensors.turning * gamma, np.zeros((len(gamma), 0))
+
+    def _zeros(self, trial: Int[np.ndarray, " m"]) -> Float[np.ndarray, "m q"]:
+        if self.sensors.zeroed:
+            return np.zeros((len(trial), 0))
+        return np.asarray(trial[:, None] == np.unique(self.trial), float)
 
     def nuisance(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " q"]:
         """Best κ [N m/rad], or zero of each trial's angle [rad]."""
@@ -121,13 +117,51 @@ class BesideForce:
         return np.asarray(self.weight * (self.fitted(theta) - self.values))
 
     def slopes(self, theta: Float[np.ndarray, " 8"], *, fixation: bool) -> Float[np.ndarray, "n 8"]:
-        """Derivative of the residual with respect to each number of the law."""
+        """Derivative of the residual with respect to each number of the law, its change by the nuisance's left out.
+
+        That leaves the gradient of the sum of squares as it is (Kaufman 1975, BIT 15, 49).
+        """
+        modelled, linear = self.model(theta, self.cells, self.trial)
+        nuisance = self._best(modelled, linear)
+        out = self._by_lengths(theta, nuisance)
+        if fixation or theta[7] != 0.0:
+            out = self._by_difference(theta, nuisance)
+        scaled, out = linear * self.weight[:, None], out * self.weight[:, None]
+        size = np.einsum("nq,nq->q", scaled, scaled)
+        return np.asarray(out - scaled @ ((scaled.T @ out) / np.where(size > 0.0, size, 1.0)[:, None]))
+
+    def _by_lengths(
+        self, theta: Float[np.ndarray, " 8"], nuisance: Float[np.ndarray, " q"]
+    ) -> Float[np.ndarray, "n 8"]:
+        """Derivatives of the model with a rigid fixation, in closed form."""
+        s, c, bottom, tangent = _link(theta, self.cells)
+        by_tangent = np.column_stack([c + tangent * s, s - tangent * c, -tangent]) / bottom[:, None]  # x, y, l
+        turned = by_tangent / (1.0 + tangent**2)[:, None]
         out = np.zeros((len(self.values), len(theta)))
-        for k in ALL if fixation or theta[7] != 0.0 else LENGTHS:
-            h = STEP * (theta[3] if k in LENGTHS else 1.0 / theta[0] if k == 7 else max(abs(theta[k]), STEP))
+        if self.channel == ALPHA:
+            out[:, 1:4] = -turned
+            return out
+        force, turning = self.cells[:, FORCE], self.sensors.turning
+        out[:, 1:4] = -2.0 * theta[4] * (force * tangent)[:, None] * by_tangent
+        out[:, 1:4] += (float(nuisance[0]) if turning is None else turning) * turned
+        out[:, 4] = -force * (1.0 + tangent**2)
+        return out
+
+    def _by_difference(
+        self, theta: Float[np.ndarray, " 8"], nuisance: Float[np.ndarray, " q"]
+    ) -> Float[np.ndarray, "n 8"]:
+        """Derivatives of the model where the fixation yields."""
+
+        def with_nuisance(numbers: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " n"]:
+            modelled, linear = self.model(numbers, self.cells, self.trial)
+            return np.asarray(modelled + linear @ nuisance)
+
+        out = np.zeros((len(self.values), len(theta)))
+        for k in range(len(theta)):
+            h = STEP * (theta[3] if 0 < k < 5 else 1.0 / theta[0] if k == 7 else max(abs(theta[k]), STEP))
             above, below = theta.copy(), theta.copy()
             above[k], below[k] = theta[k] + h, theta[k] - h
-            out[:, k] = (self.residual(above) - self.residual(below)) / (2.0 * h)
+            out[:, k] = (with_nuisance(above) - with_nuisance(below)) / (2.0 * h)
         return out
 
     def off_visits(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " v"]:
@@ -146,11 +180,27 @@ class BesideForce:
         off = factor[self.visit] * self.off_visits(theta)
         return replace(self, values=self.fitted(theta) + np.bincount(self.of_visit, off, len(self.values)))
 
+    def turned(self) -> BesideForce:
+        """The same moment with its sign turned; an angle as it is."""
+        if self.channel != MOMENT:
+            return self
+        return replace(self, values=-self.values)
+
     def _best(self, modelled: Float[np.ndarray, " n"], linear: Float[np.ndarray, "n q"]) -> Float[np.ndarray, " q"]:
-        if not linear.shape[1]:
-            return np.zeros(0)
+        """Least squares for the nuisance, whose columns are orthogonal."""
         scaled, off = linear * self.weight[:, None], self.weight * (self.values - modelled)
-        return np.asarray(np.linalg.lstsq(scaled, off, rcond=None)[0])
+        size = np.einsum("nq,nq->q", scaled, scaled)
+        return np.asarray((scaled.T @ off) / np.where(size > 0.0, size, 1.0))
+
+
+def _link(theta: Float[np.ndarray, " 8"], means: Float[np.ndarray, "m c"]) -> tuple[Float[np.ndarray, " m"], ...]:
+    """Sine and cosine of the angle, bottom of tan γ [m] and tan γ, with the offsets under load."""
+    law = ElbowLaw(*(np.ascontiguousarray(means[:, k]) for k in (BETA, RATE, PRESSURE)))
+    x, y = law.offsets_under_load(theta)
+    s, c = np.sin(law.beta), np.cos(law.beta)
+    bottom = theta[3] + y * c - x * s
+    bottom = np.where(np.abs(bottom) < NEAR_POLE, NEAR_POLE, bottom)
+    return s, c, bottom, (x * c + y * s) / bottom
 
 
 def beside_force(data: Binned, sensors: Sensors) -> tuple[BesideForce, ...]:

@@ -138,6 +138,10 @@ class ElbowProblem:
         """The same problem with other mean forces, and nothing measured beside them."""
         return replace(self, force=force, beside=())
 
+    def with_beside(self, beside: Sequence[BesideForce]) -> ElbowProblem:
+        """The same problem with other means beside the force."""
+        return replace(self, beside=tuple(beside))
+
     def drawn(
         self, force: Float[np.ndarray, " n"], beside: Sequence[BesideForce], rng: np.random.Generator
     ) -> ElbowProblem:

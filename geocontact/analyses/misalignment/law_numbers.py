@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from geocontact.analyses.frame import quantities
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import ATTACHMENT, DAMPING, ByName, ByPlace, Plausible
-from geocontact.data.units import Unit, mm
+from geocontact.data.units import Unit, deg, mm
 from geocontact.io.text.units import ANGLE, DIMENSIONS
 
 EXAMPLE = "l=169,z=127 (N/m, mm, N s/m, 1/mmHg, mm/N)"
@@ -25,6 +25,8 @@ STROKE = Plausible("a stroke", mm, (-1000.0, 1000.0), (-200.0, 200.0))
 N_M, N_M_PER_RAD = Unit("N m", "N m", 1.0), Unit("N m/rad", "N m/rad", 1.0)
 TORQUE = Plausible("the torque of an actuator of an arm", N_M, (-1000.0, 1000.0), (-100.0, 100.0))
 TURNING = Plausible("the stiffness of a cuff against turning", N_M_PER_RAD, (0.0, 1e4), (0.0, 500.0))
+MOMENT_NOISE = Plausible("the noise of a moment", N_M, (0.0, 100.0), (0.0, 5.0))
+ANGLE_NOISE = Plausible("the noise of an angle", deg, (0.0, 45.0), (0.0, 10.0))
 NUMBERS = ByName(
     (
         ("k", ATTACHMENT),

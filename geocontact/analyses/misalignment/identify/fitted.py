@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.misalignment.identify.beside import Beside, beside_of
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.bins import FORCE, Binned, binned
@@ -252,6 +253,8 @@ class Fitted:
         Tests of the force between the wider bins.
     r2, mirrored_r2
         Of bin means, and of the force turned over.
+    beside
+        What was measured beside the force.
     """
 
     recordings: Sequence[ElbowRecording]
@@ -270,6 +273,7 @@ class Fitted:
     residuals: Residuals
     r2: float
     mirrored_r2: float
+    beside: Beside
 
 
 def fitted(
@@ -297,6 +301,7 @@ def fitted(
         residuals=residuals_of(locked, data, e),
         r2=r_squared(measured, e.predicted),
         mirrored_r2=mirrored_r2(e),
+        beside=beside_of(data, e),
     )
 
 

@@ -16,13 +16,14 @@ from typing import Any, Literal
 import numpy as np
 import pandas as pd
 
+from geocontact.analyses.misalignment.identify import beside as beside_cuts
 from geocontact.analyses.misalignment.identify import fitted as fit_cuts
 from geocontact.analyses.misalignment.identify import sentences as said_cuts
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
 from geocontact.analyses.misalignment.recordings import recordings
-from geocontact.axis_misalignment import bins, compensation, explicit, least_squares, uncertainty
+from geocontact.axis_misalignment import bins, compensation, explicit, known_by_sensor, least_squares, uncertainty
 from geocontact.axis_misalignment.law import ABSENT, NAMES, UNITS
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
@@ -131,6 +132,8 @@ def read(o: IdentifyOptions) -> IdentifyInputs:
     parameters = unknowns(o.known or {}, o.prior or {}, o.bounds or {}, o.start or {}, o.free or ())
     locked = _recordings("locked", o.recordings, o)
     _require_locked(o.recordings, locked)
+    if o.turning is not None or o.alpha_zeroed:
+        _require_sensors(o, locked)
     if not all(p.fixed for p in parameters if p.name == "s"):
         _require_pressures(o.recordings[0], locked)
     apart = _recordings("held out", o.held_out or (), o)
@@ -163,6 +166,14 @@ def _require_free(paths: Sequence[Path], found: Sequence[ElbowRecording]) -> Non
             what = f"the compensation joint slides by {moved * 1e3:.3g} mm in it, less than a locked one may"
             remedy = "is its column in m, and not in mm? write displacement [m]; or was it locked?"
             raise InputError(path, "", what, remedy)
+
+
+def _require_sensors(o: IdentifyOptions, locked: Sequence[ElbowRecording]) -> None:
+    """Refuse what is said of a moment or of the arm's angle where none was recorded."""
+    if o.turning is not None and all(r.moment is None for r in locked):
+        raise InputError(o.recordings[0], "", "`turning` needs a column moment", "name it: `map` moment=…")
+    if o.alpha_zeroed and all(r.alpha is None for r in locked):
+        raise InputError(o.recordings[0], "", "`alpha_zeroed` needs a column alpha", "name it: `map` alpha=…")
 
 
 def _require_pressures(path: Path, locked: Sequence[ElbowRecording]) -> None:
@@ -219,6 +230,10 @@ def _of_options(o: IdentifyOptions) -> Iterator[Row]:
         yield name, float(value), unit, _from(value != USUAL[name]), note
     if o.cutoff is not None:
         yield "cutoff", o.cutoff, "Hz", "option", "of the zero-lag low-pass"
+    if o.turning is not None:
+        yield "turning", o.turning, "N m/rad", "option", "stiffness of the cuff against turning"
+    if o.alpha_zeroed:
+        yield "alpha_zeroed", 1.0, "-", "option", "1: the level of the arm's angle counts, 0: its change"
     if o.unlocked is not None:
         yield (
             "rotary_free",
@@ -238,6 +253,10 @@ def _of_files(found: Fitted, free: Free | None) -> Iterator[Row]:
     yield "stretch", data.stretch, "s", "file", "that counts as independent"
     if any(r.pressure is not None for r in found.recordings):
         yield "pressure", data.pressure, "Pa", "file", "mean, at which the stiffness is k"
+    for each in found.beside.sensors:
+        noise, unit = data.beside[each.measured.channel], "N m" if each.measured.channel == bins.MOMENT else "rad"
+        yield f"noise of the {each.measured.name} sd", float(noise.sd[0]), unit, "file", "about its bins' means"
+        yield f"noise of the {each.measured.name} correlation_time", float(noise.tau[0]), "s", "file", "of the same"
     if scale is not None and free is not None:
         yield "scale slope", scale.slope, "-", "default", "of the law's displacement over the measured one"
         yield "scale se", scale.error, "-", "file", f"of that slope, over {scale.trials} trials"
@@ -255,6 +274,7 @@ def _of_search(o: IdentifyOptions) -> Iterator[Row]:
         ("noise chunk", bins.CHUNK, "s", "over which residuals are averaged for the noise"),
         ("noise shortest", autoregressive.SHORTEST, "-", "least correlation time, in steps between chunks"),
         ("noise longest", autoregressive.LONGEST, "-", "largest correlation time, in the same"),
+        ("noise least beside_force", bins.LEAST_NOISE, "-", "of the range of moment or angle: less is not counted on"),
         ("stretch memories", bins.MEMORIES, "-", "correlation times in a stretch"),
         ("stretch shortest", bins.SHORTEST, "s", ""),
         ("stretch fewest", bins.FEWEST, "-", "in the longest of few trials"),
@@ -299,6 +319,9 @@ def _cuts(found: Fitted) -> Iterator[Row]:
         ("excess p", s.RARE, "-", "and below"),
         ("excess ratio", s.MORE, "-", "from which residuals are more than noise"),
         ("mirrored better", s.BETTER, "-", "of R², from which a mirrored force is named"),
+        ("beside twice", beside_cuts.TWICE, "-", "times its noise: a residual beside the force is doubtful"),
+        ("beside half", beside_cuts.HALF, "-", "of the sum of squares: a turned moment that leaves less is named"),
+        ("beside moves", known_by_sensor.MOVES, "-", "part in a direction that is not identified"),
         ("test level", bin_tests.LEVEL, "-", "of tests between bins and of residuals"),
         ("test visits", bin_tests.FEWEST, "-", "of a bin that is compared"),
     )

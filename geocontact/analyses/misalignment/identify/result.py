@@ -25,6 +25,7 @@ from geocontact.analyses.frame.collector import note, reserve
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.misalignment.identify.beside import beside_curves, known_table
 from geocontact.analyses.misalignment.identify.curves import (
     Boxes,
     Over,
@@ -66,7 +67,9 @@ QUANTILE_COLUMNS = tuple(f"{share:.0%} [N]" for share in QUANTILES)
 
 
 def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
-    """All of them by name; `conditions` and `boxes_free` where the joint was free too."""
+    """All of them by name; `identifiability` where more than the force was measured, `conditions` and `boxes_free` where
+    the joint was free too.
+    """
     tables = {
         "intervals": interval_table(found),
         "bins": _with_fit(spread_table(found.recordings, found.data), found),
@@ -74,6 +77,8 @@ def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
         "scale_line": line_table(found),
         "held_out": held_table(found),
     }
+    if found.beside.sensors:
+        tables["identifiability"] = known_table(found.beside)
     if free is not None:
         tables["conditions"] = condition_table(found, free)
         tables["boxes_free"] = spread_table(free.recordings, free.boxes)
@@ -227,7 +232,9 @@ class IdentifyResult(Result):
         return self.fit.estimate.named
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`forces`, `identifiability`, `residuals`, and `conditions` with a free joint."""
+        """`forces`, `identifiability`, `residuals`, `beside_force` with a measured moment or angle of the arm, and
+        `conditions` with a free joint.
+        """
         f, r = self.fit, self.fit.residuals
         boxes = self._boxes("boxes", f.boxes)
         profiles = {each.words: each.profile for each in f.intervals}
@@ -236,14 +243,16 @@ class IdentifyResult(Result):
             "identifiability": identified_curves(f.line.numbers, f.line.r2, f.line.alone_r2, profiles),
             "residuals": residual_curves(r.beta, r.off, r.standard, f"Normality: Lilliefors {r.normality.shown}."),
         }
+        if f.beside.sensors:
+            sheets["beside_force"] = beside_curves(f.beside, f.estimate)
         if self.free is not None:
             free = self._boxes("boxes_free", self.free.boxes)
             sheets["conditions"] = condition_curves(bin_means(f.data), self.free.stroke, boxes, free)
         return sheets
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, with a free joint `conditions` and `boxes_free`; then
-        `numbers`, all that ran.
+        """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, `identifiability` with a measured moment or angle of
+        the arm, with a free joint `conditions` and `boxes_free`; then `numbers`, all that ran.
         """
         return tables_of(self.fit, self.free) | {"numbers": numbers_table(self.fit, self.free, self.options)}
 

@@ -10,11 +10,12 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import judge, reserve, say
 from geocontact.analyses.frame.json_file import finite
+from geocontact.analyses.misalignment.identify.beside import described_beside, doubts_of, sentences_of
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free, ShownInterval, stroke_stiffness
 from geocontact.analyses.misalignment.law_numbers import MMHG, with_units
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
-from geocontact.axis_misalignment.law import LENGTHS
+from geocontact.axis_misalignment.law import LENGTHS, SCALED
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
@@ -26,7 +27,8 @@ BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
 SCALE_FREE = (
     f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
-    "state l, z or k (`known`), give a prior (`prior`), or record the free joint's displacement (`unlocked`)"
+    "state l, z or k (`known`), give a prior (`prior`), record the cuff's moment (a column moment), or the free joint's "
+    "displacement (`unlocked`)"
 )
 
 
@@ -57,7 +59,9 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
     if bad:  # the law may be right, and the trial that was left out another one
         doubts.append(Doubt(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}", False))
-    return GoodnessOfFit(tuple(doubts), ("force", *(each.name for each in found.held)))
+    doubts += doubts_of(found.beside)
+    others = [each.measured.name for each in found.beside.sensors]
+    return GoodnessOfFit(tuple(doubts), ("force", *others, *(each.name for each in found.held)))
 
 
 def _doubt_displacement(found: Fitted, free: Free) -> None:
@@ -124,6 +128,8 @@ def described(found: Fitted, free: Free | None) -> dict[str, Any]:
         "pressure_mmHg": found.data.pressure / MMHG if found.data.pressure else None,
         "starts": {"count": len(e.costs), "costs": list(e.costs)},
     }
+    if found.beside.sensors:
+        content["beside_force"] = described_beside(found.beside)
     return content if free is None else {**content, "free_joint": _free_joint(found, free)}
 
 
@@ -219,6 +225,8 @@ def say_numbers(found: Fitted, free: Free | None) -> None:
         told.append(f"not used: {worst:.3f} at least over {len(found.held)}")
     say("; ".join(told))
     say(f"residuals: {found.residuals.normality.words}")
+    for line in sentences_of(found.beside):
+        say(line)
     if free is None:
         return
     for stop in free.stroke.stops:
@@ -250,6 +258,7 @@ def explained(found: Fitted, free: Free | None) -> list[str]:
         fixation_words(found),
         f"Residuals are {words}." if found.residuals.normality.p < 0.05 else f"Residuals: {words}.",
     ]
+    told += [f"{line[0].upper()}{line[1:]}." for line in sentences_of(found.beside)]
     if found.bins_differ is not None:
         told += _bins(found, found.bins_differ)
     if free is not None:
@@ -265,6 +274,8 @@ def _scale(found: Fitted) -> str:
         r = ratios(found.estimate.named)
         shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
         return f"{SCALE_FREE}. Independent of the scale: k l = {r['k_times_l_N']:.4g} N, {shares}."
+    if problem.scale is None and problem.scale_by_moment and not set(problem.priors) & set(SCALED):
+        return "The scale of k and the lengths is set by the measured moment of the cuff: over the force it is −z/cos² γ."
     if problem.scale is not None:
         return (
             "The scale of k and the lengths is set by the free joint's displacement, over which d_tot rises one for "

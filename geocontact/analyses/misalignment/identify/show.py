@@ -26,6 +26,7 @@ WORDS = (
     "left and the forearm. The exoskeleton's axis lies x and y off the joint's; its link l reaches the attachment, "
     "which is z away from the forearm's line."
 )
+IDENTIFIED_BY = "What each set of sensors identifies"
 ARM = 0.7, 1.25
 """How long the upper arm is drawn over the link, and the forearm over its length to the attachment."""
 
@@ -95,6 +96,8 @@ def fit_page(
         arm_drawing(found, np.radians(angle)),
         *sheets["forces"].panels,
         Words("What the data identify", [spelled(line) for line in explained(found, free)]),
+        *([frame_table(IDENTIFIED_BY, tables["identifiability"])] if "identifiability" in tables else []),
+        *sheets.get("beside_force", CurveSheet([])).panels,
         *sheets.get("conditions", CurveSheet([])).panels,
         direction_bars(found.all_directions),
         *sheets["identifiability"].panels,

@@ -7,9 +7,9 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import AngleUnit, Excludes, Expression, Millimetres, Requires, Spelled, Typed
+from geocontact.analyses.frame.marks import AngleUnit, Degrees, Excludes, Expression, Millimetres, Requires, Spelled, Typed
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.misalignment.law_numbers import NUMBERS, TORQUE, TURNING, require_names
+from geocontact.analyses.misalignment.law_numbers import ANGLE_NOISE, MOMENT_NOISE, NUMBERS, TORQUE, TURNING, require_names
 from geocontact.analyses.misalignment.shared_options import (
     Stroke,
     require_at_least_0,
@@ -90,6 +90,11 @@ class SimulateOptions(Options):
         Its correlation time [s]; 0.3 by default.
     donning
         Standard deviation of both offsets from trial to trial; 0 by default.
+    moment_noise
+        Standard deviation of a sensor of the cuff's moment [N m]; with it the trials have a column moment. None by
+        default.
+    alpha_noise
+        Standard deviation of a sensor of the arm's angle [deg]; with it the trials have a column alpha. None by default.
     seed
         Seed of the random draws; 0 by default.
 
@@ -124,6 +129,8 @@ class SimulateOptions(Options):
     noise: Annotated[float | None, ALONG, NOISE] = None
     memory: Annotated[float | None, ALONG, MEMORY] = None
     donning: Annotated[Millimetres | None, Spelled("donning-mm", "donning_mm"), ALONG, SHIFT] = None
+    moment_noise: Annotated[float | None, ALONG, MOMENT_NOISE] = None
+    alpha_noise: Annotated[Degrees | None, Spelled("alpha-noise-deg", "alpha_noise_deg"), ALONG, ANGLE_NOISE] = None
     bits: Annotated[int | None, ALONG] = None
     seed: Annotated[int | None, ALONG] = None
     map: Annotated[Expression | None, Requires("recordings")] = None
@@ -140,7 +147,8 @@ class SimulateOptions(Options):
             what = f"{self.trials} trials are too few for `case`"
             raise InputError("", "`trials`", what, f"give {FEWEST} or more: some are held out")
         require_within(self.bits, "`bits`", (0, 32), 12)
-        require_at_least_0(self.seed, "`seed`")
+        for name in ("seed", "moment_noise", "alpha_noise"):
+            require_at_least_0(getattr(self, name), f"`{name}`")
         for name in ("band", "pressure"):
             require_rising(getattr(self, name), f"`{name}`")
         require_stroke(self.stroke)

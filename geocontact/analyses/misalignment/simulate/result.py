@@ -147,13 +147,15 @@ def _made(numbers: Mapping[str, float], design: Design, o: SimulateOptions) -> l
     rng = np.random.default_rng(SEED if o.seed is None else o.seed)
     count = TRIALS if o.trials is None else o.trials
     mean = 0.0 if design.pressures is None else float(np.mean(design.pressures))
+    sensors = np.random.default_rng([SEED if o.seed is None else o.seed, 1])
     kinds = [("locked", None)] if o.stroke is None else [("locked", None), ("free", o.stroke)]
     try:
-        return [
+        made = [
             loaded(synthetic(f"{kind}_{k + 1}", numbers, design, rng, ends, mean, o.torque, o.turning), ends, mean, o)
             for kind, ends in kinds
             for k in range(count)
         ]
+        return [each.sensed(o.moment_noise, o.alpha_noise, sensors) for each in made]
     except ValueError as error:
         raise _beyond(error, numbers, "`donning`", "give a smaller one") from error
 

@@ -61,6 +61,19 @@ class LoadedTrial:
     mean_pressure: float
     turning: float
 
+    def sensed(
+        self, moment_noise: float | None, alpha_noise: float | None, rng: np.random.Generator
+    ) -> LoadedTrial:
+        """With sensors of the cuff's moment [N m] and of the arm's angle [rad], white noise of these SD on each."""
+        r, columns = self.recording, {}
+        for name, noise, values in (
+            ("moment", moment_noise, self.loads.moment),
+            ("alpha", alpha_noise, r.beta - self.loads.gamma),
+        ):
+            if noise is not None:
+                columns[name] = values + noise * rng.standard_normal(len(values))
+        return replace(self, recording=replace(r, **columns))
+
     def table(self) -> pd.DataFrame:
         """What was recorded, γ and the cuff's moment; with an actuator's torque what becomes of it."""
         r, loads = self.recording, self.loads
@@ -69,6 +82,10 @@ class LoadedTrial:
             columns["displacement [mm]"] = r.displacement * 1e3
         if r.pressure is not None:
             columns["pressure [mmHg]"] = r.pressure / MMHG
+        if r.moment is not None:
+            columns["moment [N m]"] = r.moment
+        if r.alpha is not None:
+            columns["alpha [deg]"] = np.degrees(r.alpha)
         columns |= {"gamma [deg]": np.degrees(loads.gamma), "cuff_moment [N m]": loads.moment}
         if r.torque is not None:
             columns |= {
