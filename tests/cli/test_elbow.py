@@ -175,7 +175,10 @@ def test_the_page_and_its_figures(fitted: Call) -> None:
 @pytest.mark.slow
 def test_without_anything_known_the_options_that_would_help_are_named(tmp_path: Path, made: Path) -> None:
     result = done(elbow("fit", tmp_path, *locked(made), "--bootstrap", 0))
-    words = "state l, z or k (--known), give a prior (--prior), or record the free joint's displacement (--unlocked)"
+    words = (
+        "state l, z or k (--known), give a prior (--prior), record the cuff's moment (a column moment), or the free "
+        "joint's displacement (--unlocked)"
+    )
     assert any(words in line for line in result.warnings) and words in page_of(result).replace("&#39;", "'").replace(
         "&#x27;", "'"
     )

@@ -100,12 +100,12 @@ def between_neighbours(v: AngleBins, channel: int) -> list[BinPair]:
     groups = {int(place): v.means[v.place == place, channel] for place in np.unique(v.place)}
     pairs = [(k, k + 1) for k in groups if min(len(groups[k]), len(groups.get(k + 1, ()))) >= FEWEST]
     tests = [mannwhitneyu(groups[a], groups[b]) for a, b in pairs]
-    holm = _holm(np.array([float(test.pvalue) for test in tests]))
-    found = zip(pairs, tests, holm, strict=True)
+    corrected = holm(np.array([float(test.pvalue) for test in tests]))
+    found = zip(pairs, tests, corrected, strict=True)
     return [BinPair(pair, float(test.statistic), float(test.pvalue), float(p)) for pair, test, p in found]
 
 
-def _holm(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
+def holm(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
     """Adjusted p-values: the smallest times m, the next times m - 1, never falling, 1 at most."""
     order = np.argsort(p)
     adjusted = np.empty(len(p))

@@ -21,6 +21,7 @@ from geocontact.analyses.misalignment.identify import fitted as fit_cuts
 from geocontact.analyses.misalignment.identify import sentences as said_cuts
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
+from geocontact.analyses.misalignment.identify.tracking import read_scores
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
 from geocontact.analyses.misalignment.recordings import recordings
 from geocontact.axis_misalignment import bins, compensation, explicit, known_by_sensor, least_squares, uncertainty
@@ -119,12 +120,13 @@ SAME_PRESSURE = MMHG  # Pa; pressures that differ by less are one
 
 @dataclass(frozen=True, eq=False)
 class IdentifyInputs:
-    """Numbers of the law as far as they are known, and recordings: joint locked, held out, joint free."""
+    """Numbers of the law as far as they are known, recordings (joint locked, held out, joint free), scores by trial."""
 
     parameters: tuple[Parameter, ...]
     locked: Sequence[ElbowRecording]
     held_out: Sequence[ElbowRecording]
     unlocked: Sequence[ElbowRecording]
+    scores: pd.DataFrame | None = None
 
 
 def read(o: IdentifyOptions) -> IdentifyInputs:
@@ -140,7 +142,8 @@ def read(o: IdentifyOptions) -> IdentifyInputs:
     _require_locked(o.held_out or (), apart)
     free = _recordings("unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
     _require_free(o.unlocked or (), free)
-    return IdentifyInputs(parameters, locked, apart, free)
+    scores = read_scores(o.scores, [*locked, *apart, *free])
+    return IdentifyInputs(parameters, locked, apart, free, scores)
 
 
 def _recordings(

@@ -45,7 +45,8 @@ class IdentifyOptions(ColumnOptions):
     ----------
     recordings
         Tables of angle and force with the compensation joint locked (.csv .mot .sto .c3d): time, beta, force; as far
-        as they are there also pressure, moment (of the cuff about the link's end), alpha (angle of the arm).
+        as they are there also pressure, moment (of the cuff about the link's end), alpha (angle of the arm), target
+        (angle to follow).
 
     Further recordings
     ------------------
@@ -81,6 +82,10 @@ class IdentifyOptions(ColumnOptions):
         The measured angle of the arm and that of the exoskeleton have one zero: its level counts, and not only its
         change.
 
+    scores
+        Table of what was asked or scored of each trial, such as comfort or mental load: trial, comfort [-]. It and the
+        tracking error, where a column target was recorded, are set beside the force.
+
     How it is fitted
     ----------------
     bin
@@ -94,7 +99,8 @@ class IdentifyOptions(ColumnOptions):
     writes: ClassVar[str] = """
     Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, numbers.csv (all that ran, with
     unit and source), figures (.png, .svg), report.html and run.json into OUT, with `unlocked` also conditions.csv and
-    boxes_free.csv. k, x, y, l and z are known up to one factor only, unless one of them comes from elsewhere.
+    boxes_free.csv; with a moment or an angle of the arm identifiability.csv; with a target or `scores` tracking.csv,
+    tracking_conditions.csv and performance.csv. k, x, y, l and z are known up to one factor only, unless one of them comes from elsewhere.
     """
 
     recordings: tuple[Path, ...]
@@ -109,6 +115,7 @@ class IdentifyOptions(ColumnOptions):
     free: Names | None = None
     turning: Annotated[float | None, TURNING] = None
     alpha_zeroed: bool = False
+    scores: Path | None = None
     bin: Annotated[Degrees, Spelled("bin-deg", "bin_deg", default=2.0), BIN] = TWO_DEGREES
     box: Annotated[Degrees, Spelled("box-deg", "box_deg", default=10.0), BIN] = TEN_DEGREES
     bootstrap: int = 500

@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, reserve
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -46,6 +46,13 @@ from geocontact.analyses.misalignment.identify.numbers import IdentifyInputs, nu
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.sentences import described, reserve_doubts, say_numbers
 from geocontact.analyses.misalignment.identify.show import fit_page
+from geocontact.analyses.misalignment.identify.tracking import (
+    Performance,
+    described_performance,
+    performance_of,
+    performance_sentences,
+    performance_tables,
+)
 from geocontact.analyses.misalignment.law_numbers import PER_SI, WRITTEN
 from geocontact.axis_misalignment.beside_force import Sensors
 from geocontact.axis_misalignment.bins import Binned, binned
@@ -216,12 +223,15 @@ class IdentifyResult(Result):
         What those with a free joint tell; None without.
     summary
         What `elbow.json` holds, with units in the keys.
+    performance
+        Tracking error and scores beside the force; None without target and scores.
     """
 
     options: IdentifyOptions
     fit: Fitted
     free: Free | None
     summary: dict[str, Any]
+    performance: Performance | None = None
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -252,9 +262,11 @@ class IdentifyResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, `identifiability` with a measured moment or angle of
-        the arm, with a free joint `conditions` and `boxes_free`; then `numbers`, all that ran.
+        the arm, `tracking`, `tracking_conditions`, `performance` with a target or scores, with a free joint `conditions` and `boxes_free`; then `numbers`, all that ran.
         """
-        return tables_of(self.fit, self.free) | {"numbers": numbers_table(self.fit, self.free, self.options)}
+        of_task = {} if self.performance is None else performance_tables(self.performance)
+        numbers = numbers_table(self.fit, self.free, self.options)
+        return tables_of(self.fit, self.free) | of_task | {"numbers": numbers}
 
     def figure(self, name: str = "forces") -> Figure:
         """One of the figures: force over the angle unless named."""
@@ -300,9 +312,16 @@ def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     found = fitted(recorded.locked, data, estimated(problem), recorded.held_out, o)
     reserve_doubts(found, free)
     say_numbers(found, free)
+    of_task = performance_of(
+        {"locked": recorded.locked, "held out": recorded.held_out, "free": recorded.unlocked}, recorded.scores
+    )
     summary = described(found, free)
+    if of_task is not None:
+        summary["performance"] = described_performance(of_task)
+        for line in performance_sentences(of_task):
+            say(line)
     note("elbow", summary)
-    return IdentifyResult(options=o, fit=found, free=free, summary=summary)
+    return IdentifyResult(options=o, fit=found, free=free, summary=summary, performance=of_task)
 
 
 def _scaled_by(problem: ElbowProblem, free: Free) -> ElbowProblem:

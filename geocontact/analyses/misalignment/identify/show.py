@@ -27,6 +27,11 @@ WORDS = (
     "which is z away from the forearm's line."
 )
 IDENTIFIED_BY = "What each set of sensors identifies"
+OF_TASK = {
+    "tracking": "Tracking error and force of each trial",
+    "tracking_conditions": "Tracking error, scores and force by condition, mean and SD over trials",
+    "performance": "What goes with force and pressure over trials",
+}
 ARM = 0.7, 1.25
 """How long the upper arm is drawn over the link, and the forearm over its length to the attachment."""
 
@@ -104,6 +109,7 @@ def fit_page(
         *sheets["residuals"].panels,
         frame_table("What was identified", tables["intervals"].dropna(axis="columns", how="all")),
         frame_table("Force that was not used", tables["held_out"]),
+        *(frame_table(title, tables[name]) for name, title in OF_TASK.items() if name in tables and len(tables[name])),
         frame_table("Along the scale: numbers that give the same force", tables["scale_line"].iloc[::5]),
         INPUTS,
         OPTIONS,
