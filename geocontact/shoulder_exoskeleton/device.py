@@ -18,7 +18,7 @@ ranges and the course of the lever are in no source.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import pi, radians
 from typing import Any, TypeVar
 
@@ -181,10 +181,13 @@ class Device:
         For the record.
     numbers
         One for each of `QUANTITIES`.
+    controller
+        Thresholds and sensors of its controller as far as they are stated; names are those of `controller_numbers`.
     """
 
     name: str
     numbers: Mapping[str, Number]
+    controller: Mapping[str, Number] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> float:
         """A number in SI."""

@@ -11,9 +11,10 @@ import pandas as pd
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES, Number, Source
-from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
+from geocontact.io.recordings.shoulder_device import StatedNumber, read_device_file, read_person_file
 from geocontact.io.text.side_table import read_side_table
-from geocontact.shoulder_exoskeleton.device import BUILT_IN, JOINTS, QUANTITIES, Device, Wearer
+from geocontact.shoulder_exoskeleton.device import BUILT_IN, JOINTS, QUANTITIES, Device, DeviceQuantity, Wearer
+from geocontact.shoulder_exoskeleton.support.controller_numbers import CONTROLLED, thresholds_of
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
 from geocontact.shoulder_exoskeleton.support.phase_machine import SUPPORTED
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
@@ -23,6 +24,7 @@ LENGTHS = ("upper_arm", "shoulder_width", "torso")
 SHORTEST, LONGEST = 0.1, 1.0
 """Lengths of a person [m] that are believed."""
 UNITS = {name: quantity.unit for name, quantity in QUANTITIES.items()}
+CONTROLLER_UNITS = {name: quantity.unit for name, quantity in CONTROLLED.items()}
 
 
 def device_named(named: str) -> Device:
@@ -33,22 +35,31 @@ def device_named(named: str) -> Device:
     if not file.is_file():
         what = f"{named!r} is neither a file nor a built-in device"
         raise InputError("", "`device`", what, f"built in are {', '.join(BUILT_IN)}")
-    told = read_device_file(file, UNITS, SOURCES)
+    told = read_device_file(file, UNITS, CONTROLLER_UNITS, SOURCES)
     if told.based_on not in BUILT_IN:
         raise InputError(file, "`based_on`", f"{told.based_on!r} is not built in", f"one of {', '.join(BUILT_IN)}")
     numbers = dict(BUILT_IN[told.based_on]().numbers)
-    for name, each in told.numbers.items():
-        quantity = QUANTITIES[name]
+    numbers |= _in_range(file, "numbers", told.numbers, QUANTITIES)
+    device = Device(told.name, numbers, _in_range(file, "controller", told.controller, CONTROLLED))
+    _require_sound(file, device)
+    add_input("`device`", file, numbers=len(told.numbers) + len(told.controller))
+    return device
+
+
+def _in_range(
+    file: Path, table: str, stated: Mapping[str, StatedNumber], quantities: Mapping[str, DeviceQuantity]
+) -> dict[str, Number]:
+    """Numbers of one table of the file; InputError for what cannot be."""
+    found = {}
+    for name, each in stated.items():
+        quantity = quantities[name]
         if not quantity.lower <= each.value <= quantity.upper:
             unit, factor = quantity.written
             ends = f"{quantity.lower * factor:g} to {quantity.upper * factor:g} {unit}"
             what = f"{each.value * factor:g} {unit} cannot be {quantity.what}"
-            raise InputError(file, f"[numbers] {name}", what, f"that is {ends}")
-        numbers[name] = Number(each.value, _source(each.source), each.note)
-    device = Device(told.name, numbers)
-    _require_sound(file, device)
-    add_input("`device`", file, numbers=len(told.numbers))
-    return device
+            raise InputError(file, f"[{table}] {name}", what, f"that is {ends}")
+        found[name] = Number(each.value, _source(each.source), each.note)
+    return found
 
 
 def wearer_named(file: Path | None) -> Wearer:
@@ -91,6 +102,10 @@ def _require_sound(file: Path, device: Device) -> None:
             device.axis(joint)
         except ValueError as error:
             raise InputError(file, f"[numbers] axis_{joint}_x", str(error), "give its direction") from error
+    try:
+        thresholds_of(device)
+    except ValueError as error:
+        raise InputError(file, "[controller]", str(error), "give both of them") from error
     if device["mu_k"] > device["mu_s"]:
         what = f"kinetic friction {device['mu_k']:g} is larger than the static one, {device['mu_s']:g}"
         raise InputError(file, "[numbers] mu_k", what, "exchange them, or give mu_s as well")

@@ -62,11 +62,15 @@ class DeviceDescription(Document):
         The built-in device whose numbers count where none is given.
     numbers
         Numbers by name: `NAME = { value, unit, source, note }`.
+    controller
+        Thresholds and sensors of its controller, in the same way: low, high, up, down, still, on, off, confirmed,
+        running, smoothing, settled, turned, angle_noise, angle_step, delay, current_noise.
     """
 
     name: Word | None = None
     based_on: Word = "lucy"
     numbers: Mapping[str, Any] = {}
+    controller: Mapping[str, Any] = {}
 
 
 @dataclass(frozen=True)
@@ -76,25 +80,28 @@ class DeviceFile:
     name: str
     based_on: str
     numbers: Mapping[str, StatedNumber]
+    controller: Mapping[str, StatedNumber]
 
 
-def read_device_file(path: Path, units: Mapping[str, str], sources: tuple[str, ...]) -> DeviceFile:
+def read_device_file(
+    path: Path, units: Mapping[str, str], controlled: Mapping[str, str], sources: tuple[str, ...]
+) -> DeviceFile:
     """A device from `device.toml`; InputError for what it cannot be.
 
     Parameters
     ----------
-    units
-        SI unit of every number that a device has.
+    units, controlled
+        SI unit of every number that a device has, and of every one that its controller has.
     sources
         Words that may say where a number is from.
     """
-    numbers = Some(
-        {name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in units.items()}
-    )
-    fields: dict[str, Any] = {"numbers": (Annotated[dict[str, StatedNumber], numbers], {})}
+    fields: dict[str, Any] = {}
+    for field, own in (("numbers", units), ("controller", controlled)):
+        some = Some({name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in own.items()})
+        fields[field] = (Annotated[dict[str, StatedNumber], some], {})
     kind = create_model("Device", __base__=DeviceDescription, **fields)
     found: DeviceDescription = checked(path, kind, toml_of(path, LARGEST))
-    return DeviceFile(found.name or path.stem, found.based_on, found.numbers)
+    return DeviceFile(found.name or path.stem, found.based_on, found.numbers, found.controller)
 
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:

@@ -23,6 +23,7 @@ from geocontact.shoulder_exoskeleton.cuff_contact import MOST_LOST, Cuff, OutOfC
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, move_arm, require_held
 from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial
+from geocontact.shoulder_exoskeleton.support.controller_numbers import thresholds_of
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, SupportOutcome, outcome_of
 from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing, Thresholds, detected, sensed
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
@@ -71,8 +72,9 @@ def hand_controller(
     current: Float[np.ndarray, " t"],
     sensing: Sensing | None = None,
     seed: int = 0,
+    thresholds: Thresholds | None = None,
 ) -> Controller:
-    """The controller of one hand's arm in a task, with the usual thresholds; a phase without a factor has 0.
+    """The controller of one hand's arm in a task, with the usual thresholds by default; a phase without a factor has 0.
 
     Parameters
     ----------
@@ -84,7 +86,7 @@ def hand_controller(
         Of the noise.
     """
     shares = np.array([factors.get(FactorKey(task, hand, phase), 0.0) for phase in PHASES])
-    return Controller(shares, current, Thresholds(), sensing, seed)
+    return Controller(shares, current, thresholds or Thresholds(), sensing, seed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +181,8 @@ def simulated_support(
 
     ArithmeticError as of `controlled_arm`.
     """
-    control = hand_controller(factors, trial.task, trial.hand, trial.current, sensing, seed)
+    limits = thresholds_of(device)
+    control = hand_controller(factors, trial.task, trial.hand, trial.current, sensing, seed, limits)
     arm, lost = controlled_arm(trial.motion, device, trial.wearer, 1.0, control, guess=guess, most_lost=1.0), False
     found = arm.simulation
     try:

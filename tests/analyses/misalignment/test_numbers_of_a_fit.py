@@ -37,7 +37,7 @@ PRIOR: dict[str, Any] = {
     "bin": WIDTH,
     "bootstrap": 0,
 }
-NO_NUMBER_OF_A_FIT = {"FACTORS", "BETA", "FORCE", "RATE", "PRESSURE", "DISPLACEMENT", "ABSENT"}
+NO_NUMBER_OF_A_FIT = {"FACTORS", "BETA", "FORCE", "RATE", "PRESSURE", "DISPLACEMENT", "MOMENT", "ALPHA", "ABSENT"}
 """Points of a line that is drawn; places of channels."""
 
 

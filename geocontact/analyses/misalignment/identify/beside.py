@@ -112,7 +112,7 @@ def known_table(found: Beside) -> pd.DataFrame:
             "unit": _unit(name),
             "value": value * _per(name),
             "standard error": error * _per(name),
-            "of the value [%]": 100.0 * error / abs(value) if value else np.nan,
+            "of the value [-]": error / abs(value) if value else np.nan,
             "identified": "no" if np.isnan(error) else "yes",
         }
         for each in found.known

@@ -25,7 +25,14 @@ from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, W
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
+from geocontact.shoulder_exoskeleton.support.controller_numbers import (
+    CONTROLLED,
+    controller_numbers,
+    sensing_of,
+    thresholds_of,
+)
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
+from geocontact.shoulder_exoskeleton.support.phase_machine import PhaseCheck, phase_check, phases_by_onset
 from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Hand
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm, arm_at_work
@@ -81,11 +88,13 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
         reserve(line)
     time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
-    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, time))
+    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, device, time))
 
 
-def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Mapping[Side, Controller] | None:
-    """By side; None where the support is constant."""
+def controllers(
+    o: ShoulderSimulateOptions, device: Device, time: Float[np.ndarray, " t"]
+) -> Mapping[Side, Controller] | None:
+    """By side, with the device's thresholds and sensors; None where the support is constant."""
     if o.profile is None or o.tool is None:
         return None
     profiles = read_profiles(o.profile)
@@ -102,7 +111,8 @@ def controllers(o: ShoulderSimulateOptions, time: Float[np.ndarray, " t"]) -> Ma
         hand: Hand = "dominant" if side == (o.dominant or "right") else "other"
         if not any(FactorKey(task, hand, phase) in factors for phase in PHASES):
             raise InputError(o.profile, name, f"no factors of the {hand} hand for {task}", "add a row")
-        found[side] = hand_controller(factors, task, hand, current)
+        seed = 2 * (o.seed or 0) + (side == "left")
+        found[side] = hand_controller(factors, task, hand, current, sensing_of(device), seed, thresholds_of(device))
     return found
 
 
@@ -139,7 +149,28 @@ def simulated_along(worn: Worn, arm: ArmMotion, o: ShoulderSimulateOptions) -> S
         shares = ", ".join(f"{name} {share:.2f}" for name, share in zip(PHASES, control.factors, strict=True))
         changes = f"{np.count_nonzero(np.diff(one.detected))} changes"
         say(f"{arm.side} arm: support by phase: {shares}; {changes}{out_of_cuff_clause(found)}")
+        say_detected(one)
     return one
+
+
+def detection_of(one: SimulatedArm) -> PhaseCheck | None:
+    """Phases that the controller detects beside those of the recorded motion; None where the support is constant."""
+    if one.detected is None:
+        return None
+    motion = one.simulation.motion
+    return phase_check(motion.time, one.detected, phases_by_onset(motion.time, motion.elevation, one.phase))
+
+
+def say_detected(one: SimulatedArm) -> None:
+    """Say how much of the time the controller is in a wrong phase; warn where it chatters."""
+    check = detection_of(one)
+    if check is None:
+        return
+    late = f", changes late by up to {1e3 * max(check.latencies):.0f} ms" if check.latencies else ""
+    say(f"{one.side} arm: the controller is in another phase than the motion for {check.wrong:.1%} of the time{late}")
+    if check.chatter:
+        more = f"phases change {check.changes} times, those of the motion {check.true_changes}"
+        reserve(f"{one.side} arm: the controller chatters: {more}")
 
 
 def summary_of(one: SimulatedArm) -> dict[str, float]:
@@ -161,6 +192,10 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
         told["screw_in_elevation_deg"] = np.degrees(s.elevation[working].mean())
         told["screw_in_shoulder_minus_exoskeleton_deg"] = np.degrees((s.motion.elevation - s.elevation)[working].mean())
         told["screw_in_supporting_N"] = s.supporting[working].mean()
+    check = detection_of(one)
+    if check is not None:
+        told |= {"wrong_phase_share": check.wrong, "changes_of_phase": float(check.changes)}
+        told["changes_of_phase_of_the_motion"] = float(check.true_changes)
     return {name: float(value) for name, value in told.items()}
 
 
@@ -170,7 +205,9 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     told, motion = s.told, s.motion
     led = {}
     if arm.detected is not None and arm.factor is not None:
-        led = {"detected phase": np.array(PHASES)[arm.detected], "factor [-]": arm.factor}
+        by_onset = phases_by_onset(motion.time, motion.elevation, arm.phase)
+        led = {"phase by onset": np.array(PHASES)[by_onset], "detected phase": np.array(PHASES)[arm.detected]}
+        led["factor [-]"] = arm.factor
     slide = 1e3 * told["sliding"]
     columns = {
         "time [s]": motion.time,
@@ -204,12 +241,18 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def numbers_table(device: Device) -> pd.DataFrame:
-    """Every number of the device in the unit that files have, and where it is from."""
+def numbers_table(device: Device, *, controlled: bool = False) -> pd.DataFrame:
+    """Every number of the device in the unit that files have, and where it is from; the controller's as well where
+    there is one.
+    """
+    each = [(name, number, QUANTITIES[name]) for name, number in device.numbers.items()]
+    if controlled:
+        own = controller_numbers(device).items()
+        each += [(f"controller {name}", number, CONTROLLED[name]) for name, number in own]
     rows = []
-    for name, number in device.numbers.items():
-        unit, factor = QUANTITIES[name].written
-        rows.append((name, number.value * factor, unit, number.source, number.note or QUANTITIES[name].what))
+    for name, number, quantity in each:
+        unit, factor = quantity.written
+        rows.append((name, number.value * factor, unit, number.source, number.note or quantity.what))
     return pd.DataFrame(rows, columns=["number", "value", "unit", "source", "note"])
 
 

@@ -40,6 +40,8 @@ class ShoulderSimulateOptions(Options):
         Task whose factors count, where the profile has several.
     dominant
         Side of the dominant hand; right by default.
+    seed
+        Seed of the noise of the controller's sensors, where the device's file states it; 0 by default.
     side
         Arms that are simulated.
     cuff
@@ -87,6 +89,7 @@ class ShoulderSimulateOptions(Options):
     profile_name: Annotated[str | None, Requires("profile")] = None
     task: Annotated[str | None, Requires("profile")] = None
     dominant: Annotated[Literal["right", "left"] | None, Requires("profile")] = None
+    seed: Annotated[int | None, Requires("profile")] = None
     side: Literal["both", "right", "left"] = "both"
     cuff: Literal["point", "surface"] = "point"
     sensitivity: bool = False

@@ -95,7 +95,7 @@ class ShoulderSimulateResult(Result):
     def tables(self) -> dict[str, pd.DataFrame]:
         """`right` and `left` over time, `numbers` of the device, `sensitivity` where it was asked for."""
         told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
-        told["numbers"] = numbers_table(self.device)
+        told["numbers"] = numbers_table(self.device, controlled=self.options.profile is not None)
         if self.influences:
             parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
