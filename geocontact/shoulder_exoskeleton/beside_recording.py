@@ -11,10 +11,15 @@ from jaxtyping import Bool, Float
 
 from geocontact.identify.signals.agreement import Agreement, agreement, over_stretches
 from geocontact.identify.signals.filters import at_times, even_times
+from geocontact.shoulder_exoskeleton.device import JOINTS
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 ELEVATION, FORCE = "elevation", "force"
-"""Channels that are recorded: elevation of the exoskeleton's arm, and force of a mat in its cuff."""
+PASSIVE = JOINTS[:2]
+"""Channels of the passive joints' angles."""
+RECORDED = (ELEVATION, FORCE, *PASSIVE)
+"""Channels that are recorded: elevation of the exoskeleton's arm, force of a mat in its cuff, angles of the passive
+joints."""
 ALL, WORK = "all", "work"
 """The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
 FEWEST = 2

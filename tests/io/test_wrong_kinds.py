@@ -17,6 +17,7 @@ import pytest
 from geocontact.analyses.catalogue import ENTRIES, job_named
 from geocontact.analyses.frame.options import declared
 from geocontact.analyses.misalignment.population.drawn import UNITS as OFFSETS
+from geocontact.analyses.shoulder.devices import CONTROLLER_UNITS
 from geocontact.analyses.shoulder.devices import UNITS as DEVICE_UNITS
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES
@@ -263,7 +264,7 @@ without = "A"
         {r"trials \d+ (name|level)": ("number", "text")},
     ),
     "device": Description(
-        lambda path: read_device_file(path, DEVICE_UNITS, SOURCES),
+        lambda path: read_device_file(path, DEVICE_UNITS, CONTROLLER_UNITS, SOURCES),
         """name = "wide"
 based_on = "lucy"
 [numbers]

@@ -15,7 +15,7 @@ from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
-from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, Channels
+from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, PASSIVE, RECORDED, Channels
 
 
 def shown_in(channel: str) -> tuple[str, float]:
@@ -30,7 +30,8 @@ def recorded_channels(
     unit: ForceUnit | None = None,
     delay: float = 0.0,
 ) -> Channels:
-    """Columns elevation and force of a table, or those that `named` maps to them; InputError where there is neither.
+    """Columns elevation, force, passive_1 and passive_2 of a table, or those that `named` maps to them; InputError where
+    there is none.
 
     Parameters
     ----------
@@ -42,16 +43,16 @@ def recorded_channels(
     table = read_table(path, leave_words=True)
     if table.time_unit != "s":
         raise InputError(path, "", "time is in per cent of a cycle", "give a recording in seconds")
-    mapping = {} if named is None else parse_map(named, (ELEVATION, FORCE))
+    mapping = {} if named is None else parse_map(named, RECORDED)
     values = {}
-    for channel in (ELEVATION, FORCE):
+    for channel in RECORDED:
         column = _column(table, channel, mapping)
         if column is not None:
             sign, name = column
-            found = angles_of(table, [name], angles)[:, 0] if channel == ELEVATION else _force(table, name, unit)
+            found = _force(table, name, unit) if channel == FORCE else angles_of(table, [name], angles)[:, 0]
             values[channel] = sign * found
     if not values:
-        what = f"no column elevation or force; columns are: {listed(table.channels)}"
+        what = f"no column elevation, force, {' or '.join(PASSIVE)}; columns are: {listed(table.channels)}"
         raise InputError(path, "", what, "name them: `map` elevation=NAME,force=NAME")
     return Channels(table.time - delay, values)
 

@@ -51,6 +51,22 @@ def test_errors_are_those_that_were_put_in_phase_by_phase(tmp_path: Path) -> Non
     assert found.sentences[0].startswith("elevation, all: MAE 1.6")
 
 
+def test_passive_joints_that_were_measured_are_a_channel(tmp_path: Path) -> None:
+    """2 degrees too far out, with the sign that the encoder has; a simulated table without them is refused."""
+    first, second = 30.0 * np.sin(TIME), -20.0 * np.cos(0.7 * TIME)
+    plain = simulated(tmp_path)
+    file = recorded(tmp_path, **{"encoder [deg]": -(first + 2.0), "passive_2 [deg]": second})
+    with pytest.raises(gc.InputError, match=r"no column passive_1"):
+        gc.shoulder.compare(plain, file, map="passive_1=-encoder")
+    table = pd.read_csv(plain).assign(**{"passive_1 [deg]": first, "passive_2 [deg]": second})
+    table.to_csv(plain, index=False)
+    found = gc.shoulder.compare(plain, file, map="passive_1=-encoder")
+    errors = found.table().set_index(["channel", "phase"])
+    assert errors.loc[("passive_1", "all"), ["unit", "bias"]].tolist() == ["deg", pytest.approx(-2.0, abs=1e-9)]
+    assert errors.loc[("passive_2", "work"), "rmsd"] == pytest.approx(0.0, abs=1e-9)
+    assert [panel.title for panel in found.curves()["comparison"].panels] == ["Passive_1", "Passive_2"]
+
+
 def test_a_late_clock_is_set_right(tmp_path: Path) -> None:
     file = recorded(tmp_path, late=0.5, **{"elevation [deg]": np.degrees(raised(TIME))})
     with pytest.warns(gc.InputWarning) as seen:  # a clock that is a quarter of a second late is warned of as well
@@ -65,7 +81,7 @@ def test_a_late_clock_is_set_right(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("columns", "options", "words"),
     [
-        ({"angle [deg]": TIME}, {}, "no column elevation or force; columns are: angle"),
+        ({"angle [deg]": TIME}, {}, "no column elevation, force, passive_1 or passive_2; columns are"),
         ({"elevation [deg]": TIME}, {"map": "force=mat"}, "no column 'mat' for force"),
         ({"elevation [deg]": TIME}, {"delay": 100.0}, "the simulation from 0 to 6 s; give `delay`"),
     ],

@@ -213,3 +213,26 @@ def test_descriptions_that_cannot_be(folder: Path, tmp_path: Path, old: str, new
     with pytest.raises(gc.InputError) as error:
         studied(place / "study.toml")
     assert told in str(error.value)
+
+
+def test_curves_over_the_work_are_those_at_the_same_share_of_it(found: StudyResult, folder: Path) -> None:
+    """The first 10 % of the shoulder's range to the last is the work; by hand from the table over time."""
+    table = found.table("normalised")
+    rows = table[(table["trial"] == "supported") & (table["arm"] == "right")]
+    assert list(rows["motion recorded"].unique()) == ["in the device", "without it"]
+    own = rows[rows["motion recorded"] == "in the device"].set_index("work [-]")
+    assert len(own) == 101 and own.index[0] == 0.0 and own.index[-1] == 1.0
+    s = found.cases[0].within.simulation
+    high = np.degrees(s.motion.elevation)
+    raised = np.flatnonzero(high > high.min() + 0.1 * np.ptp(high))
+    first, last = s.motion.time[raised[[0, -1]]]
+    for share in (0.0, 0.25, 0.5, 1.0):
+        at = first + share * (last - first)
+        wanted = [np.interp(at, s.motion.time, each) for each in (np.degrees(s.elevation), high, s.supporting)]
+        np.testing.assert_allclose(own.loc[share, ["exoskeleton [deg]", "shoulder [deg]", "force [N]"]], wanted)
+    panels = found.curves()["normalised"].panels
+    assert [curve.name for curve in panels[0].curves][:2] == [
+        "exoskeleton, motion in the device",
+        "shoulder, motion in the device",
+    ]
+    assert len(panels) == 8 and panels[0].over is not None and panels[0].over.unit == "%"

@@ -22,12 +22,12 @@ class ShoulderCompareOptions(Options):
     simulated
         right.csv or left.csv of `geocontact shoulder simulate`.
     recorded
-        Table over time (.csv, .mot, .sto) with the elevation of the exoskeleton's arm from its logger, the force of a
-        pressure mat in the cuff, or both.
+        Table over time (.csv, .mot, .sto) with one or more of: elevation of the exoskeleton's arm from its logger, force
+        of a pressure mat in the cuff, angles passive_1 and passive_2 of the passive joints.
     map
-        Columns by what they are, where they have other names: elevation=exo_right,force=mat.
+        Columns by what they are, where they have other names: elevation=exo_right,force=mat,passive_1=encoder.
     angles
-        Unit of the elevation where its file does not say.
+        Unit of the angles where the file does not say.
     unit
         Unit of the force where its file does not say.
     delay

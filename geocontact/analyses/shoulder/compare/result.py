@@ -16,7 +16,7 @@ warning: force: R² is -0.66, a constant would fit better
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,6 +40,7 @@ from geocontact.shoulder_exoskeleton.beside_recording import (
     ALL,
     ELEVATION,
     FORCE,
+    PASSIVE,
     WORK,
     Channels,
     ComparedChannel,
@@ -50,7 +51,7 @@ from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
 from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
 
-SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]"}
+SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]", **{joint: f"{joint} [rad]" for joint in PASSIVE}}
 """Columns of the simulated arm that the recorded channels are compared with."""
 OUT = "out of the cuff"
 MAT = (
@@ -77,15 +78,16 @@ class ArmAndRecording:
 
 def read(o: ShoulderCompareOptions) -> ArmAndRecording:
     """Both files."""
-    simulated, phase, out = _simulated(o.simulated)
-    add_input("simulated", o.simulated, frames=len(phase))
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
+    simulated, phase, out = _simulated(o.simulated, {ELEVATION, FORCE, *recorded.curves})
+    add_input("simulated", o.simulated, frames=len(phase))
     add_input("recorded", o.recorded, samples=len(recorded.time))
     return ArmAndRecording(simulated, phase, out, recorded)
 
 
-def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
-    needed = ("time [s]", "phase", *SIMULATED.values())
+def _simulated(path: Path, channels: Collection[str]) -> tuple[Channels, tuple[str, ...], float]:
+    own = {channel: name for channel, name in SIMULATED.items() if channel in channels}
+    needed = ("time [s]", "phase", *own.values())
     table = read_side_table(path, (*needed, OUT))
     missing = [name for name in needed if name not in table]
     if missing:
@@ -95,7 +97,7 @@ def _simulated(path: Path) -> tuple[Channels, tuple[str, ...], float]:
     odd = [name for name in phase if name not in PHASES]
     if odd:
         raise InputError(path, "phase", f"{odd[0]!r} is not a phase", f"phases are {', '.join(PHASES)}")
-    values = {channel: np.asarray(table[name], float) for channel, name in SIMULATED.items()}
+    values = {channel: np.asarray(table[name], float) for channel, name in own.items()}
     out = float(np.mean([str(each) != "0" for each in table[OUT]])) if OUT in table else 0.0
     return Channels(np.asarray(table["time [s]"], float), values), phase, out
 
@@ -190,7 +192,7 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], reserved
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
     return Page(
         title=f"Simulated arm against {recorded}",
-        subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff",
+        subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff, passive joints",
         time=time[shown],
         time_label="time [s]",
         headline=answer(channels, reserved),

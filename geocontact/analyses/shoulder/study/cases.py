@@ -23,7 +23,9 @@ from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, r
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ELEVATION,
+    FEWEST,
     FORCE,
+    PASSIVE,
     BesideRecording,
     Channels,
     beside_recording,
@@ -176,6 +178,7 @@ def _beside(each: StudyTrialInputs, within: SimulatedArm, recorded: Channels) ->
         ELEVATION: (ELEVATION, s.elevation),
         COPIED: (ELEVATION, s.motion.elevation),
         FORCE: (FORCE, s.supporting),
+        **{joint: (joint, s.angles[:, k]) for k, joint in enumerate(PASSIVE)},
     }
     found = beside_recording(time, models, [PHASES[number] for number in within.phase], recorded)
     if not found.channels:
@@ -258,3 +261,34 @@ def passive_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
             slip = {"slip [mm]": 1e3 * float(s.slip[-1]), "out of the cuff [-]": float(s.out_of_cuff.mean())}
             rows.append({"trial": case.trial.name, "arm": case.within.side, "motion recorded": group, **spans, **slip})
     return pd.DataFrame(rows)
+
+
+SAMPLES = 101
+"""Of a normalised curve: 0 to 100 %."""
+GROUPS = ("in the device", "without it")
+
+
+def normalised_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
+    """Curves of both groups over the work, 0 % where the arm is first raised and 100 % where it last is.
+
+    Durations differ from trial to trial and between the groups; so the angles of exoskeleton and shoulder stand beside
+    each other at the same part of the work (figs. 11 and 12 of the study).
+    """
+    columns = ["trial", "arm", "motion recorded", "work [-]", "exoskeleton [deg]", "shoulder [deg]", "force [N]"]
+    rows = []
+    for case in cases:
+        for group, arm in zip(GROUPS, (case.within, case.without), strict=True):
+            if arm is None:
+                continue
+            s, at_work = arm.simulation, np.flatnonzero(arm.phase)
+            if len(at_work) < FEWEST:
+                continue
+            time = s.motion.time
+            at = np.linspace(time[at_work[0]], time[at_work[-1]], SAMPLES)
+            curves = [np.interp(at, time, each) for each in (DEG * s.elevation, DEG * s.motion.elevation, s.supporting)]
+            words = {"trial": case.trial.name, "arm": arm.side, "motion recorded": group}
+            rows += [
+                {**words, **dict(zip(columns[3:], values, strict=True))}
+                for values in zip(np.linspace(0.0, 1.0, SAMPLES), *curves, strict=True)
+            ]
+    return pd.DataFrame(rows, columns=columns)

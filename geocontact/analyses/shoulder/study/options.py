@@ -41,7 +41,8 @@ class StudyOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes summary.csv, errors.csv, differences.csv, passive.csv, a figure, report.html and run.json into OUT.
+    Writes summary.csv, errors.csv, differences.csv, passive.csv, normalised.csv, figures, report.html and run.json into
+    OUT.
     """
 
     study: Path

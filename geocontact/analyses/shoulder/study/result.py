@@ -9,7 +9,7 @@ r"""A study of a shoulder exoskeleton: `geocontact shoulder study`, `gc.shoulder
 >>> _ = Path("study.toml").write_text(text + 'level = "100%"\n')
 >>> result = gc.shoulder.study("study.toml")
 >>> sorted(result.tables())
-['differences', 'errors', 'passive', 'summary']
+['differences', 'errors', 'normalised', 'passive', 'summary']
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ from geocontact.analyses.shoulder.study.cases import (
     StudyTrialInputs,
     difference_table,
     error_table,
+    normalised_table,
     passive_table,
     read,
     study_case,
@@ -40,7 +41,7 @@ from geocontact.analyses.shoulder.study.cases import (
 )
 from geocontact.analyses.shoulder.study.doubts import say_doubts
 from geocontact.analyses.shoulder.study.options import StudyOptions
-from geocontact.analyses.shoulder.study.show import answer, error_bars, facts, study_curves
+from geocontact.analyses.shoulder.study.show import answer, error_bars, facts, normalised_curves, study_curves
 from geocontact.shoulder_exoskeleton.device import Device
 from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.page.content import Page, Words
@@ -68,21 +69,26 @@ class StudyResult(Result):
         return by_name(self.table("summary"), ("channel", "part"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`summary` over all arms and trials, `errors` of each, `differences` of both groups, `passive` joints."""
+        """`summary` over all arms and trials, `errors` of each, `differences` of both groups, `passive` joints,
+        `normalised` curves over the work in per cent.
+        """
         return {
             "summary": summary_table(self.cases),
             "errors": error_table(self.cases),
             "differences": difference_table(self.cases),
             "passive": passive_table(self.cases),
+            "normalised": normalised_table(self.cases),
         }
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions."""
-        return {"study": study_curves(self.cases)}
+        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions; `normalised`:
+        both groups over the work in per cent, with the shoulder.
+        """
+        return {"study": study_curves(self.cases), "normalised": normalised_curves(self.table("normalised"))}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Curves of each arm and tables."""
-        tables = self.tables()
+        tables, curves = self.tables(), self.curves()
         words = {
             "summary": "Errors over all arms",
             "differences": "Motion recorded in the device less that without it, screw-in",
@@ -98,7 +104,8 @@ class StudyResult(Result):
             facts=facts(tables["summary"]),
             sections=(
                 *error_bars(tables["errors"]),
-                *(panel.bounded(SAMPLES) for panel in self.curves()["study"].panels),
+                *(panel.bounded(SAMPLES) for panel in curves["study"].panels),
+                *curves["normalised"].panels,
                 *(frame_table(title, tables[name], 3) for name, title in words.items() if len(tables[name])),
                 INPUTS,
                 OPTIONS,

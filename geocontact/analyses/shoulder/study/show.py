@@ -44,6 +44,29 @@ def _panel(case: StudyCase, channel: str) -> Curves:
     return Curves(f"{case.name}: {title}", unit, curves, over=Course("time", "s", time))
 
 
+def normalised_curves(table: pd.DataFrame) -> CurveSheet:
+    """Exoskeleton, shoulder and force of each arm over the work in per cent, both groups: the first 24 arms."""
+    panels = []
+    for (trial, side), rows in list(table.groupby(["trial", "arm"], sort=False))[:MOST]:
+        groups = list(rows.groupby("motion recorded", sort=False))
+        over = Course("work", "%", 100.0 * groups[0][1]["work [-]"].to_numpy())
+        angles = [
+            Curve(f"{what}, motion {group}", own[f"{what} [deg]"].to_numpy(), stroke=stroke(k, way))
+            for k, (group, own) in enumerate(groups)
+            for way, what in enumerate(("exoskeleton", "shoulder"))
+        ]
+        forces = [
+            Curve(f"motion {group}", own["force [N]"].to_numpy(), stroke=stroke(k, k))
+            for k, (group, own) in enumerate(groups)
+        ]
+        name = f"{trial}, {side} arm"
+        panels += [
+            Curves(f"{name}: elevation over the work", "deg", angles, over=over),
+            Curves(f"{name}: force that lifts the arm over the work", "N", forces, over=over),
+        ]
+    return CurveSheet(panels, columns=4)
+
+
 def _curve(arm: SimulatedArm, channel: str) -> Float[np.ndarray, " t"]:
     return arm.simulation.elevation if channel == ELEVATION else arm.simulation.supporting
 
