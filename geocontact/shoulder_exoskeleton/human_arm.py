@@ -167,10 +167,24 @@ class ToolWork:
             raise ValueError("tool and push must not be negative")
 
 
-def hand_load(work: ToolWork, side: Side, dominant: Side, running: Bool[np.ndarray, " t"]) -> HandLoad:
-    """Load of one hand while the tool runs or not, frame by frame."""
+def hand_load(
+    work: ToolWork,
+    side: Side,
+    dominant: Side,
+    running: Bool[np.ndarray, " t"],
+    measured: Float[np.ndarray, "t 3"] | None = None,
+) -> HandLoad:
+    """Load of one hand while the tool runs or not, frame by frame.
+
+    Parameters
+    ----------
+    measured
+        Force of both hands on the work in the laboratory [N], in place of the push while the tool runs.
+    """
     leads = side == dominant
     share = work.dominant_share if leads else 1.0 - work.dominant_share
+    if measured is not None:
+        return HandLoad(work.tool if leads else 0.0, share * measured)
     direction = np.array(work.direction) / np.linalg.norm(work.direction)
     return HandLoad(work.tool if leads else 0.0, share * work.push * running[:, None] * direction)
 

@@ -74,6 +74,24 @@ def _force(table: TextTable, name: str, unit: ForceUnit | None) -> Float[np.ndar
     return column_in_newtons(table, name, unit)[0]
 
 
+AXES = "fx", "fy", "fz"
+"""Columns of a force on the work."""
+
+
+def push_force(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
+    """Measured force on the work at these times [N], 0 before and after; InputError where an axis is missing."""
+    table = read_table(file, leave_words=True)
+    if table.time_unit != "s":
+        raise InputError(file, "", "time is in per cent of a cycle", "give a recording in seconds")
+    missing = [axis for axis in AXES if resolve(table, axis) is None]
+    if missing:
+        what = f"no column {missing[0]}; columns are: {listed(table.channels)}"
+        raise InputError(file, "", what, "write fx [N], fy [N], fz [N] in the markers' axes")
+    add_input("`push`", file, samples=len(table.time))
+    columns = [_force(table, str(resolve(table, axis)), None) for axis in AXES]
+    return np.column_stack([np.interp(time, table.time, each, 0.0, 0.0) for each in columns])
+
+
 EVENT, CURRENT = "event", "current"
 RUNNING = 4.0
 """Current that an event of 1 stands for [A]; a screwdriver takes as much."""

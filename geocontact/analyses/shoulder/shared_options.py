@@ -9,6 +9,7 @@ from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
 from geocontact.data.units import Unit
+from geocontact.io.text.units import ANGLE
 
 EXAMPLE = "100%"
 CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
@@ -21,6 +22,11 @@ def level(text: str, option: str) -> float:
     if "%" not in text and value > 1.0:
         raise InputError("", option, f"{text!r} may be meant in per cent", f"write {text}% or {0.01 * value:g}")
     return value * (0.01 if "%" in text else 1.0)
+
+
+def elevations(text: str, option: str) -> tuple[float, ...]:
+    """ "39,129" in degrees to angles [rad]."""
+    return tuple(quantities.number(part, option, "39,129") * ANGLE["deg"] for part in text.split(","))
 
 
 def require_share(value: float, option: str, example: str) -> None:

@@ -62,6 +62,18 @@ def _span(value: Any) -> tuple[float, float]:
     return float(value[0]), float(value[1])
 
 
+UPWARDS = 0.0, 1.0, 0.0
+"""Direction of a push that nothing is said of."""
+
+
+def _direction(value: Any) -> tuple[float, float, float]:
+    numbers = isinstance(value, list) and all(type(each) in (int, float) and math.isfinite(each) for each in value)
+    if not numbers or len(value) != 3 or not any(value):
+        raise refusal(f"{value!r:.60} is not a direction", "write [x, y, z], for example [0, 1, 0] for upwards")
+    x, y, z = map(float, value)
+    return x, y, z
+
+
 class StudyTask(Document):
     """Work with a tool.
 
@@ -70,13 +82,16 @@ class StudyTask(Document):
     tool
         Mass of the tool.
     push
-        Upward force on the tool while it runs.
+        Force on the work while the tool runs.
+    push_direction
+        Its direction in the markers' axes; upwards, [0, 1, 0], by default.
     dominant_share
         Part of it that the dominant hand exerts; `optimise` only, which has an option for it.
     """
 
     tool: Annotated[float, WithUnit("kg"), Field(ge=0.0)]
     push: Annotated[float, WithUnit("N"), Field(ge=0.0)]
+    push_direction: Annotated[tuple[float, float, float], PlainValidator(_direction), Holds("[x, y, z]")] = UPWARDS
     dominant_share: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
 
 
@@ -125,6 +140,9 @@ class StudyTrial(Document):
         Recorded markers: .trc, .c3d or .csv.
     tool
         Table with `event [-]`, 0 or 1, or `current [A]`.
+    push
+        Measured force on the work, in place of the task's: table with `fx [N], fy [N], fz [N]` in the markers' axes;
+        `optimise` only.
     upright
         A span of upright stance.
     level
@@ -140,6 +158,7 @@ class StudyTrial(Document):
     task: Word
     markers: File
     tool: File
+    push: File | None = None
     upright: Annotated[tuple[float, float], PlainValidator(_span), Holds("[first, last] in s")] | None = None
     level: Word | None = None
     recorded: File | None = None

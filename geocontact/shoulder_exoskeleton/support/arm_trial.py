@@ -225,11 +225,14 @@ class ToolUse:
         Whether it runs.
     current
         As the controller gets to see it [A].
+    push
+        Measured force of both hands on the work, in the laboratory [N]; None: that of `work` while it runs.
     """
 
     work: ToolWork
     running: Bool[np.ndarray, " t"]
     current: Float[np.ndarray, " t"]
+    push: Float[np.ndarray, "t 3"] | None = None
 
 
 def recorded_arms(
@@ -255,7 +258,8 @@ def recorded_arms(
     found = []
     for motion in motions.arms:
         track = arm_track(seen, motions.frame, motion.side)
-        load = hand_load(use.work, motion.side, worker.dominant, use.running[kept])
+        push = None if use.push is None else use.push[kept]
+        load = hand_load(use.work, motion.side, worker.dominant, use.running[kept], push)
         needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity, cutoff=cutoff)
         own = smoothed_motion(motion, cutoff, settings.gap_limit)
         to_cuff = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())

@@ -36,7 +36,7 @@ def begins(found: ShoulderSimulateResult, phase: str) -> float:
 
 def tool_starts() -> float:
     tool = pd.read_csv(TRIAL / "tool.csv", comment="#")
-    return float(tool.iloc[:, 0][tool.iloc[:, 1] == 1].iloc[0])
+    return float(tool["time [s]"][tool["current [A]"] > 2.5].iloc[0])
 
 
 def test_a_delay_makes_the_controller_see_the_tool_so_much_later(tmp_path: Path) -> None:

@@ -412,3 +412,23 @@ def test_the_page_opens_at_the_largest_force_with_trunk_and_head(found: Shoulder
     assert heights.max() == pytest.approx(shoulder[2])
     assert head.points[0, 0, 2] > shoulder[2] + head.radius
     np.testing.assert_allclose(trunk.points[0, :, 0].mean(), 0.0, atol=1e-12)
+
+
+def test_joints_where_the_shoulder_comes_up_to_an_elevation() -> None:
+    """Fig. 8 of the study: passive joints at 39 degrees; by hand from the table over time, linear between frames."""
+    asked = simulated(side="right", elevations=gc.deg(39, 110))
+    rows, over = asked.table("at_elevation"), asked.table("right")
+    high = over["shoulder elevation [deg]"].to_numpy()
+    assert rows["shoulder elevation [deg]"].tolist() == pytest.approx([39.0, 110.0])
+    for row in rows.to_dict("records"):
+        k = int(np.argmax(high >= row["shoulder elevation [deg]"] - 1e-9))
+        share = (row["shoulder elevation [deg]"] - high[k - 1]) / (high[k] - high[k - 1])
+        for name in ("time [s]", "passive_1 [deg]", "passive_2 [deg]", "elevation [deg]", "supporting [N]"):
+            values = over[name].to_numpy()
+            assert row[name] == pytest.approx(values[k - 1] + share * (values[k] - values[k - 1]), abs=1e-9)
+    page = asked.pages({})["report.html"]
+    assert page.start_frame is not None
+    assert page.time[page.start_frame] == pytest.approx(rows["time [s]"][0], abs=0.03)
+    assert any("shoulder at 39 deg" in line and "passive joints" in line for line in asked.sentences)
+    never = simulated(side="right", elevations=gc.deg(175, 39), time=(0.0, 3.0))
+    assert "no shoulder comes up to 175 deg" in never.warnings and len(never.table("at_elevation")) == 1

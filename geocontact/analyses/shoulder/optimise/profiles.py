@@ -13,7 +13,7 @@ from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
-from geocontact.analyses.shoulder.recordings import tool_current
+from geocontact.analyses.shoulder.recordings import push_force, tool_current
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
@@ -92,7 +92,9 @@ def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, l
     add_input(f"{trial.person} {trial.task}", trial.markers, frames=len(seen))
     current = tool_current(trial.tool, seen.time)
     share = o.dominant_share if task.dominant_share is None else task.dominant_share
-    use = ToolUse(ToolWork(task.tool, task.push, dominant_share=share), current > Thresholds().on, current)
+    work = ToolWork(task.tool, task.push, task.push_direction, share)
+    push = None if trial.push is None else push_force(trial.push, seen.time)
+    use = ToolUse(work, current > Thresholds().on, current, push)
     dominant: Side = "right" if person.dominant == "right" else "left"
     worker = Worker(trial.person, person.mass, person.sex, dominant, lengths)
     settings = MarkerSettings(upright=trial.upright, gap_limit=o.gap_limit)

@@ -256,6 +256,53 @@ def numbers_table(device: Device, *, controlled: bool = False) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["number", "value", "unit", "source", "note"])
 
 
+def at_elevation_table(arms: Sequence[SimulatedArm], elevations: Sequence[float]) -> pd.DataFrame:
+    """Joints and forces where each shoulder first comes up to an elevation [rad], between frames too; a row is missing
+    where it never does.
+    """
+    rows = []
+    for arm in arms:
+        s = arm.simulation
+        for elevation in elevations:
+            place = first_reached(s.motion.elevation, elevation)
+            if place is None:
+                continue
+            frames = np.arange(len(s.motion.time))
+            columns = {
+                "time [s]": s.motion.time,
+                "shoulder elevation [deg]": np.degrees(s.motion.elevation),
+                **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
+                "supporting [N]": s.supporting,
+                "support torque [N m]": s.told["support"][:, 0],
+            }
+            own = {name: float(np.interp(place, frames, values)) for name, values in columns.items()}
+            rows.append({"arm": arm.side, "frame": round(place) + 1, **own})
+    return pd.DataFrame(rows)
+
+
+def say_reached(arms: Sequence[SimulatedArm], elevations: Sequence[float]) -> None:
+    """Say the passive joints at each elevation that was asked for; warn of one that no arm comes up to."""
+    table = at_elevation_table(arms, elevations)
+    for row in table.to_dict("records"):
+        say(
+            f"{row['arm']} arm, shoulder at {row['shoulder elevation [deg]']:.0f} deg ({row['time [s]']:.2f} s): "
+            f"exoskeleton {row['elevation [deg]']:.1f} deg, passive joints {row['passive_1 [deg]']:.1f} and "
+            f"{row['passive_2 [deg]']:.1f} deg"
+        )
+    for elevation in elevations:
+        if all(first_reached(arm.simulation.motion.elevation, elevation) is None for arm in arms):
+            reserve(f"no shoulder comes up to {np.degrees(elevation):.4g} deg")
+
+
+def first_reached(values: Float[np.ndarray, " t"], value: float) -> float | None:
+    """Place between frames at which values first rise to one [frames]; None where they never do."""
+    up = np.flatnonzero((values[:-1] < value) & (values[1:] >= value))
+    if not len(up):
+        return None
+    k = int(up[0])
+    return k + float((value - values[k]) / (values[k + 1] - values[k]))
+
+
 def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:
     """What each number changes, root mean square; the largest change of the supporting force first."""
     rows = []

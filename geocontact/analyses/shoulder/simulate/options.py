@@ -6,10 +6,18 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Needs, Requires, TimeSpan
+from geocontact.analyses.frame.marks import C3dUnit, Expression, Needs, Requires, Spelled, TimeSpan, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
-from geocontact.data.plausible import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE
+
+
+Elevations = Annotated[
+    tuple[float, ...],
+    Typed("rad", "shoulder.shared_options:elevations", "gc.deg(39, 129)"),
+    Spelled("elevations-deg", "elevations_deg", dashed=True),
+    JOINT_ANGLE,
+]
 
 
 @dataclass(frozen=True)
@@ -49,6 +57,9 @@ class ShoulderSimulateOptions(Options):
         (its first run compiles for half a minute).
     sensitivity
         Also write the sensitivity to each number of the device.
+    elevations
+        Elevations of the shoulder at which the device's joints and forces are listed while the arm is lifted, such as
+        39,129; the page opens at the first one.
 
     The motion
     ----------
@@ -76,7 +87,7 @@ class ShoulderSimulateOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes right.csv and left.csv, numbers.csv with the source of every number of the device, sensitivity.csv with
-    `sensitivity`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
+    `sensitivity`, at_elevation.csv with `elevations`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
     plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
     """
 
@@ -93,6 +104,7 @@ class ShoulderSimulateOptions(Options):
     side: Literal["both", "right", "left"] = "both"
     cuff: Literal["point", "surface"] = "point"
     sensitivity: bool = False
+    elevations: Elevations | None = None
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     upright: TimeSpan | None = None

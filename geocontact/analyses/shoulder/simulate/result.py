@@ -28,8 +28,10 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shoulder.simulate.arms import (
     Worn,
     arm_table,
+    at_elevation_table,
     numbers_table,
     read,
+    say_reached,
     sensitivity_table,
     simulated_along,
     summary_of,
@@ -93,9 +95,13 @@ class ShoulderSimulateResult(Result):
         return {each.side: each.simulation.told["support"][:, 0] for each in self.arms}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`right` and `left` over time, `numbers` of the device, `sensitivity` where it was asked for."""
+        """`right` and `left` over time, `numbers` of the device, `sensitivity` and `at_elevation` where they were asked
+        for.
+        """
         told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
         told["numbers"] = numbers_table(self.device, controlled=self.options.profile is not None)
+        if self.options.elevations is not None:
+            told["at_elevation"] = at_elevation_table(self.arms, self.options.elevations)
         if self.influences:
             parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
@@ -135,6 +141,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
         },
     )
     arms = tuple(simulated_along(worn, arm, o) for arm in worn.arms)
+    say_reached(arms, o.elevations or ())
     note("arms", plain({each.side: summary_of(each) for each in arms}))
     found = {
         each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))

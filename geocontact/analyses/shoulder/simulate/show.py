@@ -32,6 +32,7 @@ DIRECTIONS = {
     "left (+x)": (1.0, 0.0, 0.0),
     "above (+z)": (0.0, 0.0, 1.0),
 }
+AT = "Where the shoulder comes up to an elevation"
 VIEW = {"right": (-1.0, 0.55, 0.35), "left": (1.0, 0.55, 0.35)}
 """From behind, on the side of the first arm."""
 POINT = (
@@ -83,6 +84,7 @@ def simulation_page(
         ),
         *arm_curves(arms).at(shown),
         Readout([row for each in arms for row in _phases(each, shown)]),
+        *(frame_table(AT, tables[name], 3) for name in ("at_elevation",) if name in tables and len(tables[name])),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         INPUTS,
@@ -96,11 +98,18 @@ def simulation_page(
         time_label="time [s]",
         headline=headline(sentences, most=2),
         facts=[fact for each in arms for fact in _facts(each)],
-        start_frame=int(np.argmax(np.max(lifting, axis=0)[shown])),
+        start_frame=_start(tables, shown, np.max(lifting, axis=0)),
         sections=tuple(sections),
         numbers=shown + 1,
         total=len(time),
     )
+
+
+def _start(tables: Mapping[str, pd.DataFrame], shown: Int[np.ndarray, " k"], lifting: Float[np.ndarray, " t"]) -> int:
+    """Frame at the first elevation that was asked for, else of the largest force."""
+    if "at_elevation" in tables and len(tables["at_elevation"]):
+        return int(np.argmin(np.abs(shown + 1 - int(tables["at_elevation"]["frame"].iloc[0]))))
+    return int(np.argmax(lifting[shown]))
 
 
 def _lines(
