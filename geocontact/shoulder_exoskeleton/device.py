@@ -289,6 +289,8 @@ def lucy_new_cylinder(*, with_mass: bool = True) -> Device:
     """With the new cylinder of 32 mm; the paper left out that it is heavier, as `with_mass` False does."""
     numbers = dict(lucy().numbers)
     numbers["bore"] = Number(0.032, "derived", "482 N at 6 bar (paper, sec. 5.3)")
+    same = "12.8 N m over 482.5 N (paper, sec. 5.3): as that of the present cylinder"
+    numbers["lever_a"] = Number(numbers["lever_a"].value, "derived", same)
     if with_mass:
         note = "as the bore's area, from that of the present cylinder"
         numbers["cylinder_mass"] = Number(numbers["cylinder_mass"].value * (32.0 / 25.0) ** 2, "invented", note)

@@ -401,3 +401,34 @@ def test_the_headline_has_what_is_left_for_persons_held_out() -> None:
     assert "32.5 to 35.6 %, 13.0 to 19.1 points over one factor; 1 of 2 are pushed up" in second
     assert second.endswith("beyond the model's error for 1 of 2.")
     assert answer({"taken away": 0.361, "taken away by one factor": 0.192}, held.iloc[:0]) == [first]
+
+
+def test_a_push_has_a_direction_and_may_be_measured_over_time(tmp_path: Path) -> None:
+    """The torque is linear in the push: opposite directions, and a measured force that is twice the task's."""
+    file = study(tmp_path, 1, 1)
+    usual, text = read(ShoulderOptimiseOptions(file)).trials, file.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    place = next(k for k, line in enumerate(lines) if line.startswith("push"))
+    file.write_text("\n".join([*lines[: place + 1], "push_direction = [0, -2, 0]", *lines[place + 1 :]]), encoding="utf-8")
+    for one, other in zip(usual, read(ShoulderOptimiseOptions(file)).trials, strict=True):
+        assert one.hand == "other" or np.abs(one.needed.push).max() > 1.0
+        np.testing.assert_allclose(other.needed.push, -one.needed.push, atol=1e-12)
+        np.testing.assert_array_equal(other.needed.weight, one.needed.weight)
+    tool = pd.read_csv(next(tmp_path.glob("P1T1.csv")), comment="#")
+    running, typed = tool["current [A]"].to_numpy() > 2.5, TASKS[0].push
+    columns = {"time [s]": tool["time [s]"], "fx [N]": 0.0 * running, "fy [N]": 2.0 * typed * running}
+    columns["fz [N]"] = 3.0 * np.sin(tool["time [s]"])
+    measured = pd.DataFrame(columns)
+    measured.to_csv(tmp_path / "push.csv", index=False)
+    file.write_text(text.replace("[[trials]]", '[[trials]]\npush = "push.csv"'), encoding="utf-8")
+    both = read(ShoulderOptimiseOptions(file)).trials
+    measured.assign(**{"fy [N]": 0.0}).to_csv(tmp_path / "push.csv", index=False)
+    along_z = read(ShoulderOptimiseOptions(file)).trials
+    for one, other, rest in zip(usual, both, along_z, strict=True):
+        np.testing.assert_allclose(other.needed.push, 2.0 * one.needed.push + rest.needed.push, atol=1e-9)
+    measured.drop(columns="fz [N]").to_csv(tmp_path / "push.csv", index=False)
+    with pytest.raises(InputError, match="no column fz"):
+        read(ShoulderOptimiseOptions(file))
+    file.write_text("\n".join([*lines[: place + 1], "push_direction = [0, 0, 0]", *lines[place + 1 :]]), encoding="utf-8")
+    with pytest.raises(InputError, match="is not a direction"):
+        read(ShoulderOptimiseOptions(file))

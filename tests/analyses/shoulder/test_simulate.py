@@ -430,5 +430,19 @@ def test_joints_where_the_shoulder_comes_up_to_an_elevation() -> None:
     assert page.start_frame is not None
     assert page.time[page.start_frame] == pytest.approx(rows["time [s]"][0], abs=0.03)
     assert any("shoulder at 39 deg" in line and "passive joints" in line for line in asked.sentences)
-    never = simulated(side="right", elevations=gc.deg(175, 39), time=(0.0, 3.0))
+    never = simulated(side="right", elevations=gc.deg(175, 39))
     assert "no shoulder comes up to 175 deg" in never.warnings and len(never.table("at_elevation")) == 1
+
+
+@pytest.mark.parametrize(("device", "force", "torque"), [("lucy", 294.5, 7.8), ("lucy_new_cylinder", 482.5, 12.8)])
+def test_levers_are_those_of_the_triangle_of_the_hinges(device: str, force: float, torque: float) -> None:
+    """Hinges as points in the plane: the lever is the distance of the joint from the line through both."""
+    table = simulated(side="right", device=device).table("levers")
+    angle = np.radians(table["elevation [deg]"].to_numpy())
+    rod, frame = 0.0265 * np.exp(1j * angle), 0.150
+    length = np.abs(frame - rod)
+    lever = 0.150 * 0.0265 * np.sin(angle) / length
+    np.testing.assert_allclose(table["cylinder length [mm]"], 1e3 * length, rtol=1e-12)
+    np.testing.assert_allclose(np.abs(table["lever [mm]"]), 1e3 * np.abs(np.imag(rod * np.conj(frame - rod))) / length)
+    np.testing.assert_allclose(table["torque [N m]"], force * lever, rtol=1e-3)
+    assert table["torque [N m]"].max() == pytest.approx(torque, rel=0.005)

@@ -21,7 +21,7 @@ from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, smoothed_arms
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
-from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer
+from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer, cylinder_length, lever
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
@@ -301,6 +301,25 @@ def first_reached(values: Float[np.ndarray, " t"], value: float) -> float | None
         return None
     k = int(up[0])
     return k + float((value - values[k]) / (values[k + 1] - values[k]))
+
+
+LEVER_STEP = np.radians(5.0)
+"""Between rows of a cylinder's levers."""
+
+
+def lever_table(device: Device) -> pd.DataFrame:
+    """Length and lever of the cylinder, and its torque at full pressure, over the range of the active joint."""
+    low, high = device["elevation_lower"], device["elevation_upper"]
+    elevation = np.linspace(low, high, round((high - low) / LEVER_STEP) + 1)
+    triangle = device["lever_a"], device["lever_b"], device["lever_phase"]
+    arm = lever(elevation, *triangle)
+    columns = {
+        "elevation [deg]": np.degrees(elevation),
+        "cylinder length [mm]": 1e3 * cylinder_length(elevation, *triangle),
+        "lever [mm]": 1e3 * arm,
+        "torque [N m]": arm * device.peak_force,
+    }
+    return pd.DataFrame(columns)
 
 
 def sensitivity_table(side: str, found: Sequence[Influence]) -> pd.DataFrame:

@@ -29,6 +29,7 @@ from geocontact.analyses.shoulder.simulate.arms import (
     Worn,
     arm_table,
     at_elevation_table,
+    lever_table,
     numbers_table,
     read,
     say_reached,
@@ -95,11 +96,12 @@ class ShoulderSimulateResult(Result):
         return {each.side: each.simulation.told["support"][:, 0] for each in self.arms}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`right` and `left` over time, `numbers` of the device, `sensitivity` and `at_elevation` where they were asked
-        for.
+        """`right` and `left` over time, `numbers` of the device, `levers` of its cylinder, `sensitivity` and
+        `at_elevation` where they were asked for.
         """
         told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
         told["numbers"] = numbers_table(self.device, controlled=self.options.profile is not None)
+        told["levers"] = lever_table(self.device)
         if self.options.elevations is not None:
             told["at_elevation"] = at_elevation_table(self.arms, self.options.elevations)
         if self.influences:

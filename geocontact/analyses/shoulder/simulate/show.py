@@ -86,6 +86,7 @@ def simulation_page(
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table(AT, tables[name], 3) for name in ("at_elevation",) if name in tables and len(tables[name])),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
+        frame_table("Length, lever and torque of the cylinder over the elevation", tables["levers"], 4),
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
