@@ -1,4 +1,4 @@
-"""What was measured beside the force: the cuff's moment, which sets the scale of k and the lengths, and the arm's angle.
+"""What was measured beside the force: the cuff's moment, which sets the scale of k and lengths, and the arm's angle.
 
 With F the measured force, of the model in terms of the link's end (`law`)
 
@@ -24,6 +24,7 @@ from jaxtyping import Float, Int
 from geocontact.axis_misalignment.bins import ALPHA, BETA, FORCE, MOMENT, PRESSURE, RATE, Binned
 from geocontact.axis_misalignment.explicit import NEAR_POLE
 from geocontact.axis_misalignment.law import STEP, ElbowLaw
+
 
 @dataclass(frozen=True)
 class Sensors:
@@ -57,7 +58,7 @@ class BesideForce:
         Which of all visits each one is.
     share
         Of its cell's samples.
-    values
+    means
         Mean moment [N m] or angle [rad] of each cell.
     weight
         Root of each cell's information.
@@ -71,7 +72,7 @@ class BesideForce:
     of_visit: Int[np.ndarray, " v"]
     visit: Int[np.ndarray, " v"]
     share: Float[np.ndarray, " v"]
-    values: Float[np.ndarray, " n"]
+    means: Float[np.ndarray, " n"]
     weight: Float[np.ndarray, " n"]
 
     @property
@@ -114,7 +115,7 @@ class BesideForce:
 
     def residual(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " n"]:
         """What the model is too large by, in standard deviations."""
-        return np.asarray(self.weight * (self.fitted(theta) - self.values))
+        return np.asarray(self.weight * (self.fitted(theta) - self.means))
 
     def slopes(self, theta: Float[np.ndarray, " 8"], *, fixation: bool) -> Float[np.ndarray, "n 8"]:
         """Derivative of the residual with respect to each number of the law, its change by the nuisance's left out.
@@ -137,7 +138,7 @@ class BesideForce:
         s, c, bottom, tangent = _link(theta, self.cells)
         by_tangent = np.column_stack([c + tangent * s, s - tangent * c, -tangent]) / bottom[:, None]  # x, y, l
         turned = by_tangent / (1.0 + tangent**2)[:, None]
-        out = np.zeros((len(self.values), len(theta)))
+        out = np.zeros((len(self.means), len(theta)))
         if self.channel == ALPHA:
             out[:, 1:4] = -turned
             return out
@@ -156,7 +157,7 @@ class BesideForce:
             modelled, linear = self.model(numbers, self.cells, self.trial)
             return np.asarray(modelled + linear @ nuisance)
 
-        out = np.zeros((len(self.values), len(theta)))
+        out = np.zeros((len(self.means), len(theta)))
         for k in range(len(theta)):
             h = STEP * (theta[3] if 0 < k < 5 else 1.0 / theta[0] if k == 7 else max(abs(theta[k]), STEP))
             above, below = theta.copy(), theta.copy()
@@ -178,17 +179,17 @@ class BesideForce:
     def redrawn(self, theta: Float[np.ndarray, " 8"], factor: Float[np.ndarray, " all"]) -> BesideForce:
         """The fitted values with every visit's residual times its factor."""
         off = factor[self.visit] * self.off_visits(theta)
-        return replace(self, values=self.fitted(theta) + np.bincount(self.of_visit, off, len(self.values)))
+        return replace(self, means=self.fitted(theta) + np.bincount(self.of_visit, off, len(self.means)))
 
     def turned(self) -> BesideForce:
         """The same moment with its sign turned; an angle as it is."""
         if self.channel != MOMENT:
             return self
-        return replace(self, values=-self.values)
+        return replace(self, means=-self.means)
 
     def _best(self, modelled: Float[np.ndarray, " n"], linear: Float[np.ndarray, "n q"]) -> Float[np.ndarray, " q"]:
         """Least squares for the nuisance, whose columns are orthogonal."""
-        scaled, off = linear * self.weight[:, None], self.weight * (self.values - modelled)
+        scaled, off = linear * self.weight[:, None], self.weight * (self.means - modelled)
         size = np.einsum("nq,nq->q", scaled, scaled)
         return np.asarray((scaled.T @ off) / np.where(size > 0.0, size, 1.0))
 
@@ -224,6 +225,6 @@ def _beside(data: Binned, sensors: Sensors, channel: int) -> BesideForce:
         of_visit=place[of_visit],
         visit=visit,
         share=visits.count[visit] / cells.count[of_visit],
-        values=cells.means[kept, channel],
+        means=cells.means[kept, channel],
         weight=np.sqrt(data.information_of(data.beside[channel]))[kept],
     )

@@ -1,9 +1,9 @@
 """What force, moment and angle of the arm identify of an elbow's numbers, each set of sensors by itself.
 
 At the numbers that were fitted, from the derivatives of all measured means over their noise: standard errors are those
-that the noise leaves were the law linear there, priors and the free joint's displacement left out. Where a set of sensors
-identifies nothing in some direction (singular values of the derivatives over the logarithms), the numbers that change
-along it have no standard error.
+that the noise leaves were the law linear there, priors and the free joint's displacement left out. Where a set of
+sensors identifies nothing in some direction (singular values of the derivatives over the logarithms), the numbers that
+change along it have no standard error.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ def _rows(e: ElbowFit) -> dict[str, Float[np.ndarray, "_ p"]]:
     jacobian, first = e.problem.jacobian(e.values), len(e.problem.force)
     found = {"force": jacobian[:first]}
     for each in e.problem.beside:
-        found[each.name] = jacobian[first : first + len(each.values)]
-        first += len(each.values)
+        found[each.name] = jacobian[first : first + len(each.means)]
+        first += len(each.means)
     return found
 
 

@@ -270,7 +270,6 @@ class ElbowLaw:
         numbers = offsets_of(theta).numbers
         return np.asarray(_slopes(self.beta, self.rate, self.pressure, theta.copy(), numbers, fixation))
 
-
     def offsets_under_load(
         self, theta: Float[np.ndarray, " 8"]
     ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:

@@ -101,7 +101,7 @@ class ElbowProblem:
     @cached_property
     def measured(self) -> int:
         """How many residuals are of measured means; those of scale and priors follow."""
-        return len(self.force) + sum(len(each.values) for each in self.beside)
+        return len(self.force) + sum(len(each.means) for each in self.beside)
 
     def theta(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, " 8"]:
         """All numbers, given the free ones."""
@@ -117,7 +117,9 @@ class ElbowProblem:
         off = (self.law.force(theta) - self.force) * self.weight
         others = [each.residual(theta) for each in self.beside]
         scale = [] if self.scale is None else [self.scale.residual(theta)]
-        return np.concatenate([off, *others, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]])
+        return np.concatenate(
+            [off, *others, scale, (values - self._prior_mean)[self._known] / self._prior_sd[self._known]]
+        )
 
     def jacobian(self, values: Float[np.ndarray, " p"]) -> Float[np.ndarray, "m p"]:
         """Derivative of the residual."""
@@ -214,7 +216,7 @@ def problem_of(
     scale: DisplacementScale | None = None,
     sensors: Sensors | None = None,
 ) -> ElbowProblem:
-    """What the bins of some trials ask; moment and angle of the arm count where something is said of their `sensors`."""
+    """What the bins of some trials ask; moment and angle of the arm count with `sensors` only."""
     means, weight = data.cells.means, np.sqrt(data.information)
     others = () if sensors is None else beside_force(data, sensors)
     return ElbowProblem(means[:, FORCE], law_at(means), weight, tuple(parameters), priors, scale, others)

@@ -1,8 +1,8 @@
 """How well a person follows a target angle with an exoskeleton, beside the force that it puts on the arm.
 
 Of each trial the error β - target as it is, and what it consists of: the delay at which the angle goes best with the
-target, the gain over the delayed target, and what is left. Over trials a measure of performance, or a score that somebody
-gave, goes with the force or it does not: slope with Student's interval, Spearman's rank correlation with the p of
+target, the gain over the delayed target, and what is left. Over trials a measure of performance, or a score of the
+trial, goes with the force or it does not: slope with Student's interval, Spearman's rank correlation with the p of
 permutations, Holm's correction over all of them. Trials are what counts, samples of one trial are not independent.
 """
 
@@ -124,7 +124,7 @@ class GoesWith:
 def goes_with(
     measures: Mapping[str, Float[np.ndarray, " n"]], overs: Mapping[str, Float[np.ndarray, " n"]]
 ) -> list[GoesWith]:
-    """Every measure over every other quantity; pairs with fewer than four trials, or without any change, are left out."""
+    """Every measure over every other quantity; pairs of fewer than four trials, or without change, are left out."""
     pairs = [(name, over, *_both(y, x)) for over, x in overs.items() for name, y in measures.items()]
     kept = [each for each in pairs if len(each[2]) >= FEWEST and np.ptp(each[2]) > 0.0 and np.ptp(each[3]) > 0.0]
     found = [_goes(name, over, y, x) for name, over, y, x in kept]

@@ -180,7 +180,7 @@ def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
     first = len(data.cells.count)
     share = (v.count / data.cells.count[cell] * off * e.problem.weight[cell])[:, None] * jacobian[:first][cell]
     for each in e.problem.beside:
-        last = first + len(each.values)
+        last = first + len(each.means)
         share[each.visit] -= each.scores(e.theta, jacobian[first:last])
         first = last
     numbers, stretch = np.unique(v.stretch, return_inverse=True)

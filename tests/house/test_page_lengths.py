@@ -11,14 +11,15 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 45_700, "how-to": 25_200, "everything": 82_000}
+ALL_WORDS = {"theory, reference": 45_850, "how-to": 25_560, "everything": 82_500}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
-shorter. Bars of tables count, as `wc -w` counts them."""
+shorter. Bars of tables count, as `wc -w` counts them. Raised by 500 for what was measured beside the force of an elbow,
+and for controller, push and levers of a shoulder's device: columns and keys that stood nowhere."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
     "how-to/cop.md": 880,
-    "how-to/elbow.md": 1070,
+    "how-to/elbow.md": 1350,
     "how-to/elbow_design.md": 950,
     "how-to/figures.md": 440,
     "how-to/fit.md": 640,
@@ -44,8 +45,8 @@ LIMITS = {
     "how-to/pressure.md": 570,
     "how-to/prosthesis.md": 1430,
     "how-to/regions_and_sides.md": 330,
-    "how-to/shoulder.md": 1010,
-    "how-to/shoulder_support.md": 890,
+    "how-to/shoulder.md": 1060,
+    "how-to/shoulder_support.md": 930,
     "how-to/sit_to_stand.md": 1070,
     "how-to/sit_to_stand_design.md": 340,
     "how-to/units.md": 360,
@@ -58,7 +59,7 @@ LIMITS = {
     "reference/gap_case.md": 880,
     "reference/gap_effects.md": 1050,
     "reference/gap_real_data.md": 1620,
-    "reference/input_files.md": 1820,
+    "reference/input_files.md": 1900,
     "reference/large_study.md": 590,
     "reference/mat_files.md": 850,
     "reference/opensim_models.md": 600,
@@ -66,7 +67,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1500,
+    "reference/written_files.md": 1520,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,

@@ -24,7 +24,9 @@ def target_at(time: np.ndarray) -> np.ndarray:
 def trial(name: str, gain: float, delay: float, noise: float, force: float) -> ElbowRecording:
     rng = np.random.default_rng(round(1000.0 * (gain + delay)))
     beta = 0.05 + gain * target_at(TIME - delay) + noise * rng.standard_normal(len(TIME))
-    return ElbowRecording(name, TIME, beta, force * np.sin(TIME), pressure=np.full(len(TIME), 4000.0), target=target_at(TIME))
+    return ElbowRecording(
+        name, TIME, beta, force * np.sin(TIME), pressure=np.full(len(TIME), 4000.0), target=target_at(TIME)
+    )
 
 
 def test_delay_gain_and_rest_are_those_planted() -> None:
@@ -39,7 +41,9 @@ def test_delay_gain_and_rest_are_those_planted() -> None:
 
 def test_without_a_target_only_the_force_is_known() -> None:
     found = tracking_of(ElbowRecording("a", TIME, target_at(TIME), np.sin(TIME)))
-    assert np.isnan([found.rmse, found.delay, found.pressure]).all() and found.peak_force == pytest.approx(1.0, abs=1e-3)
+    assert np.isnan([found.rmse, found.delay, found.pressure]).all() and found.peak_force == pytest.approx(
+        1.0, abs=1e-3
+    )
 
 
 def test_slope_and_rank_agree_with_scipy() -> None:

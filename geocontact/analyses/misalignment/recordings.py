@@ -17,7 +17,6 @@ from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
 
-
 SMOOTHED, KEPT = ("displacement", "torque", "moment", "alpha"), ("pressure", "target")
 """Channels beside angle and force that a filter smooths, and that it only takes to even times."""
 

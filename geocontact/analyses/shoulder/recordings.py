@@ -15,7 +15,7 @@ from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
-from geocontact.shoulder_exoskeleton.beside_recording import ELEVATION, FORCE, PASSIVE, RECORDED, Channels
+from geocontact.shoulder_exoskeleton.beside_recording import FORCE, PASSIVE, RECORDED, Channels
 
 
 def shown_in(channel: str) -> tuple[str, float]:
@@ -30,8 +30,8 @@ def recorded_channels(
     unit: ForceUnit | None = None,
     delay: float = 0.0,
 ) -> Channels:
-    """Columns elevation, force, passive_1 and passive_2 of a table, or those that `named` maps to them; InputError where
-    there is none.
+    """Columns elevation, force, passive_1 and passive_2 of a table, or those that `named` maps to them; InputError
+    where there is none.
 
     Parameters
     ----------

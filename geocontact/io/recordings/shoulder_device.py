@@ -97,7 +97,9 @@ def read_device_file(
     """
     fields: dict[str, Any] = {}
     for field, own in (("numbers", units), ("controller", controlled)):
-        some = Some({name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in own.items()})
+        some = Some(
+            {name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in own.items()}
+        )
         fields[field] = (Annotated[dict[str, StatedNumber], some], {})
     kind = create_model("Device", __base__=DeviceDescription, **fields)
     found: DeviceDescription = checked(path, kind, toml_of(path, LARGEST))

@@ -16,9 +16,9 @@ from geocontact.shoulder_exoskeleton.support.arm_trial import ArmTrial, scales_o
 from geocontact.shoulder_exoskeleton.support.best_profile import front, scaled, uniform_profile
 from geocontact.shoulder_exoskeleton.support.closed_loop_profile import ClosedLoop, SettledProfile
 from geocontact.shoulder_exoskeleton.support.controlled_arm import simulated_support
+from geocontact.shoulder_exoskeleton.support.controller_numbers import sensing_of
 from geocontact.shoulder_exoskeleton.support.held_out import Maker
 from geocontact.shoulder_exoskeleton.support.outcome import TABLE_3, Factors, SupportOutcome, outcome
-from geocontact.shoulder_exoskeleton.support.controller_numbers import sensing_of
 from geocontact.shoulder_exoskeleton.support.phase_machine import Sensing
 from geocontact.shoulder_exoskeleton.support.profile_limits import Limits, SupportCase
 
@@ -148,7 +148,8 @@ def with_sensors(trials: Sequence[ArmTrial], device: Device, factors: Mapping[st
     ArithmeticError as of `simulated_support`.
     """
     return {
-        each.name: simulated_support(each, device, factors[each.person], sensing_of(device) or Sensing(), seed).outcome for each in trials
+        each.name: simulated_support(each, device, factors[each.person], sensing_of(device) or Sensing(), seed).outcome
+        for each in trials
     }
 
 

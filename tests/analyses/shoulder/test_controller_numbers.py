@@ -62,7 +62,9 @@ def test_wrong_phases_and_chatter_are_said(tmp_path: Path) -> None:
     assert f"{np.mean(table['detected phase'] != table['phase by onset']):.1%} of the time" in line
     assert not any("chatters" in each for each in exact.warnings)
     noisy = led(tmp_path, 'angle_noise = { value = 4, unit = "deg" }', seed=3)
-    changes = int((noisy.table("right")["detected phase"].shift().bfill() != noisy.table("right")["detected phase"]).sum())
+    changes = int(
+        (noisy.table("right")["detected phase"].shift().bfill() != noisy.table("right")["detected phase"]).sum()
+    )
     assert any(f"the controller chatters: phases change {changes} times" in each for each in noisy.warnings)
 
 

@@ -409,7 +409,9 @@ def test_a_push_has_a_direction_and_may_be_measured_over_time(tmp_path: Path) ->
     usual, text = read(ShoulderOptimiseOptions(file)).trials, file.read_text(encoding="utf-8")
     lines = text.splitlines()
     place = next(k for k, line in enumerate(lines) if line.startswith("push"))
-    file.write_text("\n".join([*lines[: place + 1], "push_direction = [0, -2, 0]", *lines[place + 1 :]]), encoding="utf-8")
+    file.write_text(
+        "\n".join([*lines[: place + 1], "push_direction = [0, -2, 0]", *lines[place + 1 :]]), encoding="utf-8"
+    )
     for one, other in zip(usual, read(ShoulderOptimiseOptions(file)).trials, strict=True):
         assert one.hand == "other" or np.abs(one.needed.push).max() > 1.0
         np.testing.assert_allclose(other.needed.push, -one.needed.push, atol=1e-12)
@@ -429,6 +431,8 @@ def test_a_push_has_a_direction_and_may_be_measured_over_time(tmp_path: Path) ->
     measured.drop(columns="fz [N]").to_csv(tmp_path / "push.csv", index=False)
     with pytest.raises(InputError, match="no column fz"):
         read(ShoulderOptimiseOptions(file))
-    file.write_text("\n".join([*lines[: place + 1], "push_direction = [0, 0, 0]", *lines[place + 1 :]]), encoding="utf-8")
+    file.write_text(
+        "\n".join([*lines[: place + 1], "push_direction = [0, 0, 0]", *lines[place + 1 :]]), encoding="utf-8"
+    )
     with pytest.raises(InputError, match="is not a direction"):
         read(ShoulderOptimiseOptions(file))

@@ -1,4 +1,4 @@
-"""What was measured beside the force in an identification: what it adds, whether it agrees, table, curves, sentences."""
+"""What was measured beside the force of an elbow: what it adds, whether it agrees, table, curves, sentences."""
 
 from __future__ import annotations
 
@@ -82,8 +82,8 @@ def _sensor(data: Binned, e: ElbowFit, one: BesideForce) -> SensorFit:
     base = 0.0 if one.channel == MOMENT else one.cells[:, BETA]
     return SensorFit(
         measured=one,
-        r2=r_squared(one.values - base, fitted - base),
-        rmse=float(np.sqrt(np.mean((one.values - fitted) ** 2))),
+        r2=r_squared(one.means - base, fitted - base),
+        rmse=float(np.sqrt(np.mean((one.means - fitted) ** 2))),
         times=over_noise(one.residual(e.theta), len(nuisance)),
         noise=float(data.beside[one.channel].sd[0]),
         nuisance=nuisance,
@@ -141,7 +141,9 @@ def _known_sentences(known: Sequence[KnownBy]) -> Iterator[str]:
         told = dict(zip(each.names, map(float, each.errors), strict=True))
         open_to = [name for name, error in told.items() if np.isnan(error)]
         shown = [name for name in told if name not in open_to and (open_to or name in WRITTEN)]
-        errors = [f"{name} ± {' '.join(filter(None, (f'{told[name] * _per(name):.2g}', _unit(name))))}" for name in shown]
+        errors = [
+            f"{name} ± {' '.join(filter(None, (f'{told[name] * _per(name):.2g}', _unit(name))))}" for name in shown
+        ]
         line = f"{' + '.join(each.sensors)}: {', '.join(errors)} (SE by noise)"
         yield f"{line}; {', '.join(open_to)} up to one factor only" if open_to else line
 
@@ -202,7 +204,7 @@ def beside_curves(found: Beside, e: ElbowFit) -> CurveSheet:
 
 
 def _panel(one: SensorFit, e: ElbowFit) -> Curves:
-    cells, fitted, values = one.measured.cells, one.measured.fitted(e.theta), one.measured.values
+    cells, fitted, values = one.measured.cells, one.measured.fitted(e.theta), one.measured.means
     order = np.argsort(cells[:, BETA], kind="stable")
     beta, middle = cells[order, BETA], np.degrees(cells[order, BETA])
     over = Course("exoskeleton angle β", "°", middle)
@@ -213,4 +215,3 @@ def _panel(one: SensorFit, e: ElbowFit) -> Curves:
     dots = Points("bin means of the trials", middle, np.degrees(values[order] - beta))
     line = [Curve("explicit model", np.degrees(fitted[order] - beta), stroke=INK)]
     return Curves("Angle of the arm less that of the exoskeleton", "°", line, over=over, points=[dots])
-

@@ -76,8 +76,8 @@ class IdentifyOptions(ColumnOptions):
     What was measured beside the force
     ----------------------------------
     turning
-        Stiffness of the cuff against turning by γ [N m/rad], part of a measured moment. By default it is identified from
-        the moment.
+        Stiffness of the cuff against turning by γ [N m/rad], part of a measured moment. By default it is identified
+        from the moment.
     alpha_zeroed
         The measured angle of the arm and that of the exoskeleton have one zero: its level counts, and not only its
         change.
@@ -100,7 +100,8 @@ class IdentifyOptions(ColumnOptions):
     Writes elbow.json, bins.csv, boxes.csv, intervals.csv, scale_line.csv, held_out.csv, numbers.csv (all that ran, with
     unit and source), figures (.png, .svg), report.html and run.json into OUT, with `unlocked` also conditions.csv and
     boxes_free.csv; with a moment or an angle of the arm identifiability.csv; with a target or `scores` tracking.csv,
-    tracking_conditions.csv and performance.csv. k, x, y, l and z are known up to one factor only, unless one of them comes from elsewhere.
+    tracking_conditions.csv and performance.csv. k, x, y, l and z are known up to one factor only, unless one of them
+    or a moment of the cuff comes from elsewhere.
     """
 
     recordings: tuple[Path, ...]

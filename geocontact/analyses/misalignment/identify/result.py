@@ -74,8 +74,8 @@ QUANTILE_COLUMNS = tuple(f"{share:.0%} [N]" for share in QUANTILES)
 
 
 def tables_of(found: Fitted, free: Free | None) -> dict[str, pd.DataFrame]:
-    """All of them by name; `identifiability` where more than the force was measured, `conditions` and `boxes_free` where
-    the joint was free too.
+    """All of them by name; `identifiability` where more than the force was measured, `conditions` and `boxes_free`
+    where the joint was free too.
     """
     tables = {
         "intervals": interval_table(found),
@@ -262,7 +262,8 @@ class IdentifyResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`intervals`, `bins`, `boxes`, `scale_line`, `held_out`, `identifiability` with a measured moment or angle of
-        the arm, `tracking`, `tracking_conditions`, `performance` with a target or scores, with a free joint `conditions` and `boxes_free`; then `numbers`, all that ran.
+        the arm, `tracking`, `tracking_conditions`, `performance` with a target or scores, with a free joint
+        `conditions` and `boxes_free`; then `numbers`, all that ran.
         """
         of_task = {} if self.performance is None else performance_tables(self.performance)
         numbers = numbers_table(self.fit, self.free, self.options)

@@ -27,8 +27,8 @@ BETTER = 0.02  # of R² that the mirrored force must gain to be worth a word
 APART = 3.0  # times that two stiffnesses may differ before a unit is doubted
 SCALE_FREE = (
     f"k and the lengths {', '.join(LENGTHS)} are known up to one factor only: F(k/s, s × lengths) = F for every s; "
-    "state l, z or k (`known`), give a prior (`prior`), record the cuff's moment (a column moment), or the free joint's "
-    "displacement (`unlocked`)"
+    "state l, z or k (`known`), give a prior (`prior`), record the cuff's moment (a column moment), or the free "
+    "joint's displacement (`unlocked`)"
 )
 
 
@@ -275,7 +275,9 @@ def _scale(found: Fitted) -> str:
         shares = ", ".join(f"{key.replace('_over_', '/')} {value:.3f}" for key, value in r.items() if "over" in key)
         return f"{SCALE_FREE}. Independent of the scale: k l = {r['k_times_l_N']:.4g} N, {shares}."
     if problem.scale is None and problem.scale_by_moment and not set(problem.priors) & set(SCALED):
-        return "The scale of k and the lengths is set by the measured moment of the cuff: over the force it is −z/cos² γ."
+        return (
+            "The scale of k and the lengths is set by the measured moment of the cuff: over the force it is −z/cos² γ."
+        )
     if problem.scale is not None:
         return (
             "The scale of k and the lengths is set by the free joint's displacement, over which d_tot rises one for "

@@ -1,4 +1,4 @@
-"""Performance beside the force in an identification: tracking error by trial, scores from a table, both over the force."""
+"""Performance beside the force of an elbow: tracking error by trial, scores from a table, both over the force."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ RMSE, FORCE, PRESSURE = "tracking rmse [deg]", "rms force [N]", "pressure [mmHg]
 
 @dataclass(frozen=True, eq=False)
 class Performance:
-    """Each trial with its condition, its tracking, and the scores that were given for it; empty without target and scores.
+    """Each trial with its condition, its tracking, and its scores.
 
     Parameters
     ----------
@@ -103,10 +103,7 @@ def performance_tables(found: Performance) -> dict[str, pd.DataFrame]:
     columns = ["condition", "measure", "trials", "mean", "sd"]
     compared = pd.DataFrame(of_conditions(found.conditions, {**found.measures(), **force}), columns=columns)
     related = pd.DataFrame(
-        [
-            (g.measure, g.over, g.trials, g.slope, g.lower, g.upper, g.rank, g.p, g.p_holm)
-            for g in found.related
-        ],
+        [(g.measure, g.over, g.trials, g.slope, g.lower, g.upper, g.rank, g.p, g.p_holm) for g in found.related],
         columns=["measure", "over", "trials", "slope", "lower", "upper", "spearman", "p", "p holm"],
     )
     return {"tracking": tracking, "tracking_conditions": compared, "performance": related}
@@ -114,16 +111,16 @@ def performance_tables(found: Performance) -> dict[str, pd.DataFrame]:
 
 def performance_sentences(found: Performance) -> list[str]:
     """Error by condition, then what goes with the force."""
-    told = []
-    for condition, name, count, mean, sd in of_conditions(found.conditions, found.measures()):
-        spread = "" if np.isnan(sd) else f" ± {sd:.2g}"
-        told.append(f"{name}, {condition}: {mean:.3g}{spread} over {count}")
-    for g in found.related:
-        if g.over == FORCE:
-            told.append(
-                f"{g.measure} over {g.over}: {g.slope:+.2g} per unit (95 % {g.lower:.2g} … {g.upper:.2g}), "
-                f"Spearman {g.rank:+.2f}, p = {g.p_holm:.2g} (Holm)"
-            )
+    told = [
+        f"{name}, {condition}: {mean:.3g}{'' if np.isnan(sd) else f' ± {sd:.2g}'} over {count}"
+        for condition, name, count, mean, sd in of_conditions(found.conditions, found.measures())
+    ]
+    told += [
+        f"{g.measure} over {g.over}: {g.slope:+.2g} per unit (95 % {g.lower:.2g} … {g.upper:.2g}), "
+        f"Spearman {g.rank:+.2f}, p = {g.p_holm:.2g} (Holm)"
+        for g in found.related
+        if g.over == FORCE
+    ]
     return told
 
 

@@ -7,9 +7,25 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import AngleUnit, Degrees, Excludes, Expression, Millimetres, Requires, Spelled, Typed
+from geocontact.analyses.frame.marks import (
+    AngleUnit,
+    Degrees,
+    Excludes,
+    Expression,
+    Millimetres,
+    Requires,
+    Spelled,
+    Typed,
+)
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.misalignment.law_numbers import ANGLE_NOISE, MOMENT_NOISE, NUMBERS, TORQUE, TURNING, require_names
+from geocontact.analyses.misalignment.law_numbers import (
+    ANGLE_NOISE,
+    MOMENT_NOISE,
+    NUMBERS,
+    TORQUE,
+    TURNING,
+    require_names,
+)
 from geocontact.analyses.misalignment.shared_options import (
     Stroke,
     require_at_least_0,
@@ -94,7 +110,8 @@ class SimulateOptions(Options):
         Standard deviation of a sensor of the cuff's moment [N m]; with it the trials have a column moment. None by
         default.
     alpha_noise
-        Standard deviation of a sensor of the arm's angle [deg]; with it the trials have a column alpha. None by default.
+        Standard deviation of a sensor of the arm's angle [deg]; with it the trials have a column alpha. None by
+        default.
     seed
         Seed of the random draws; 0 by default.
 

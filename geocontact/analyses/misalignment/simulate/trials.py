@@ -61,9 +61,7 @@ class LoadedTrial:
     mean_pressure: float
     turning: float
 
-    def sensed(
-        self, moment_noise: float | None, alpha_noise: float | None, rng: np.random.Generator
-    ) -> LoadedTrial:
+    def sensed(self, moment_noise: float | None, alpha_noise: float | None, rng: np.random.Generator) -> LoadedTrial:
         """With sensors of the cuff's moment [N m] and of the arm's angle [rad], white noise of these SD on each."""
         r, columns = self.recording, {}
         for name, noise, values in (

@@ -22,8 +22,8 @@ class ShoulderCompareOptions(Options):
     simulated
         right.csv or left.csv of `geocontact shoulder simulate`.
     recorded
-        Table over time (.csv, .mot, .sto) with one or more of: elevation of the exoskeleton's arm from its logger, force
-        of a pressure mat in the cuff, angles passive_1 and passive_2 of the passive joints.
+        Table over time (.csv, .mot, .sto) with one or more of: elevation of the exoskeleton's arm from its logger,
+        force of a pressure mat in the cuff, angles passive_1 and passive_2 of the passive joints.
     map
         Columns by what they are, where they have other names: elevation=exo_right,force=mat,passive_1=encoder.
     angles

@@ -11,7 +11,6 @@ from geocontact.analyses.frame.options import Options
 from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
 from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE
 
-
 Elevations = Annotated[
     tuple[float, ...],
     Typed("rad", "shoulder.shared_options:elevations", "gc.deg(39, 129)"),
@@ -87,7 +86,8 @@ class ShoulderSimulateOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes right.csv and left.csv, numbers.csv with the source of every number of the device, levers.csv with length and
-    lever of its cylinder, sensitivity.csv with `sensitivity`, at_elevation.csv with `elevations`, angles.sto, interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
+    lever of its cylinder, sensitivity.csv with `sensitivity`, at_elevation.csv with `elevations`, angles.sto,
+    interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
     plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
     """
 

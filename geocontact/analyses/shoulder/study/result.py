@@ -81,8 +81,8 @@ class StudyResult(Result):
         }
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions; `normalised`:
-        both groups over the work in per cent, with the shoulder.
+        """`study`: elevation and supporting force of each arm, recorded, and simulated along both motions;
+        `normalised`: both groups over the work in per cent, with the shoulder.
         """
         return {"study": study_curves(self.cases), "normalised": normalised_curves(self.table("normalised"))}
 
