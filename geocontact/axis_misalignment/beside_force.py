@@ -83,7 +83,7 @@ class BesideForce:
     def model(
         self, theta: Float[np.ndarray, " 8"], means: Float[np.ndarray, "m c"], trial: Int[np.ndarray, " m"]
     ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, "m q"]]:
-        """Of these means without what is nuisance, and by how much each nuisance adds; its columns are orthogonal."""
+        """Model of these means without what is nuisance, and by how much each nuisance adds; its columns are orthogonal."""
         _, _, _, tangent = _link(theta, means)
         gamma = np.arctan(tangent)
         if self.channel == ALPHA:
@@ -109,7 +109,7 @@ class BesideForce:
         return np.asarray(1.0 / np.linalg.norm(linear * self.weight[:, None], axis=0))
 
     def fitted(self, theta: Float[np.ndarray, " 8"]) -> Float[np.ndarray, " n"]:
-        """Of each cell, with the best nuisance."""
+        """Modelled mean of each cell, with the best nuisance."""
         modelled, linear = self.model(theta, self.cells, self.trial)
         return np.asarray(modelled + linear @ self._best(modelled, linear))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -55,11 +55,12 @@ def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:
         except ValueError as error:
             raise InputError(path, "", str(error), "give another `cutoff`") from error
 
+    beside: dict[str, Any] = {name: smooth(own) for name in SMOOTHED if (own := getattr(r, name)) is not None}
+    beside |= {name: at_times(r.time, own, time, step) for name in KEPT if (own := getattr(r, name)) is not None}
     return replace(
         r,
         time=time,
         beta=smooth(r.beta),
         force=smooth(r.force),
-        **{name: smooth(values) for name in SMOOTHED if (values := getattr(r, name)) is not None},
-        **{name: at_times(r.time, values, time, step) for name in KEPT if (values := getattr(r, name)) is not None},
+        **beside,
     )

@@ -47,7 +47,7 @@ class Performance:
 
 
 def performance_of(groups: dict[str, Sequence[ElbowRecording]], scores: pd.DataFrame | None) -> Performance | None:
-    """Of the recordings by condition; None where there is neither a target nor a score."""
+    """Performance of the recordings by condition; None where there is neither a target nor a score."""
     pairs = [(condition, r) for condition, recordings in groups.items() for r in recordings]
     if scores is None and all(r.target is None for _, r in pairs):
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -63,7 +64,8 @@ class LoadedTrial:
 
     def sensed(self, moment_noise: float | None, alpha_noise: float | None, rng: np.random.Generator) -> LoadedTrial:
         """With sensors of the cuff's moment [N m] and of the arm's angle [rad], white noise of these SD on each."""
-        r, columns = self.recording, {}
+        r = self.recording
+        columns: dict[str, Any] = {}
         for name, noise, values in (
             ("moment", moment_noise, self.loads.moment),
             ("alpha", alpha_noise, r.beta - self.loads.gamma),

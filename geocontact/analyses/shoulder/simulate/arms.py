@@ -312,10 +312,10 @@ def lever_table(device: Device) -> pd.DataFrame:
     low, high = device["elevation_lower"], device["elevation_upper"]
     elevation = np.linspace(low, high, round((high - low) / LEVER_STEP) + 1)
     triangle = device["lever_a"], device["lever_b"], device["lever_phase"]
-    arm = lever(elevation, *triangle)
+    arm, length = (np.asarray(each(elevation, *triangle), float) for each in (lever, cylinder_length))
     columns = {
         "elevation [deg]": np.degrees(elevation),
-        "cylinder length [mm]": 1e3 * cylinder_length(elevation, *triangle),
+        "cylinder length [mm]": 1e3 * length,
         "lever [mm]": 1e3 * arm,
         "torque [N m]": arm * device.peak_force,
     }

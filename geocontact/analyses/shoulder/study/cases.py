@@ -264,7 +264,7 @@ def passive_table(cases: Sequence[StudyCase]) -> pd.DataFrame:
 
 
 SAMPLES = 101
-"""Of a normalised curve: 0 to 100 %."""
+"""Samples of a normalised curve."""
 GROUPS = ("in the device", "without it")
 
 
