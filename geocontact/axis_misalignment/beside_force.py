@@ -83,7 +83,7 @@ class BesideForce:
     def model(
         self, theta: Float[np.ndarray, " 8"], means: Float[np.ndarray, "m c"], trial: Int[np.ndarray, " m"]
     ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, "m q"]]:
-        """Model of these means without what is nuisance, and by how much each nuisance adds; its columns are orthogonal."""
+        """Model of these means without nuisance, and by how much each nuisance adds; its columns are orthogonal."""
         _, _, _, tangent = _link(theta, means)
         gamma = np.arctan(tangent)
         if self.channel == ALPHA:
