@@ -25,8 +25,13 @@ def level(text: str, option: str) -> float:
 
 
 def elevations(text: str, option: str) -> tuple[float, ...]:
-    """ "39,129" in degrees to angles [rad]."""
-    return tuple(quantities.number(part, option, "39,129") * ANGLE["deg"] for part in text.split(","))
+    """ "39,129" to angles [rad], degrees unless a unit is written."""
+    return tuple(_angle(part.strip(), option) for part in text.split(","))
+
+
+def _angle(text: str, option: str) -> float:
+    unit = next((unit for unit in ANGLE if text.endswith(unit)), "")
+    return quantities.number(text.removesuffix(unit), option, "39,129") * ANGLE[unit or "deg"]
 
 
 def require_share(value: float, option: str, example: str) -> None:
