@@ -274,8 +274,8 @@ PLATE_CHECKS = (
         "mass",
         "mean vertical force of each step with the weight of the mass that was given",
         f"{MEAN[0]:g} to {MEAN[1]:g} times the weight, for steps of {STANCE:g} to {STILL:g} s; walking people: 0.76 to "
-        "0.86 (half of the weight over 0.58 to 0.66 of the cycle; Perry, Gait Analysis, 1992); all plates together, where "
-        f"they carry all the time, within {WHOLE:.0%}",
+        "0.86 (half of the weight over 0.58 to 0.66 of the cycle; Perry, Gait Analysis, 1992); all plates together, "
+        f"where they carry all the time, within {WHOLE:.0%}",
         mass,
     ),
     Check(

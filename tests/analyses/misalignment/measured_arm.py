@@ -57,6 +57,7 @@ def record(
     alpha: bool = True,
     numbers: Mapping[str, float] = TRUE,
     sign: float = 1.0,
+    seed: int = 11,
 ) -> tuple[Path, ...]:
     """Tables of some trials: angle, force, and what else was measured.
 
@@ -64,7 +65,7 @@ def record(
     white noise of their own, the angle's zero is off by `level` [rad] and half of it more with each trial.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    rng, files = np.random.default_rng(11), []
+    rng, files = np.random.default_rng(seed), []
     for trial in range(trials):
         time = np.arange(0.0, 20.0, 0.02)
         beta = np.radians(50.0 + 40.0 * np.sin(2.0 * np.pi * (0.23 + 0.04 * trial) * time + trial))
