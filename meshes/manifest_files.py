@@ -30,14 +30,21 @@ FOLDER_KINDS = {
     "T2": "recording",
     "T3": "recording",
     "P1": "recording",
+    "foot": "study",
+    "spheres": "layout",
+    "soft": "recording",
+    "firm": "recording",
+    "hard": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "amputee_*", "gait_*", "overhead_*", "standing_up*")
+FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "overhead_*", "standing_up*")
 """Of recordings and trials, in the order of the manifest."""
 
 
 def kind(name: PurePath) -> str:
     """What a file holds, from its path in the folder of the sample data."""
+    if name.match("foot_*/walking.csv"):  # a setting's compression, no markers
+        return "recording"
     return FOLDER_KINDS[name.stem.partition("_")[0]] if len(name.parts) > 1 else KINDS[name.suffix]
 
 

@@ -24,6 +24,7 @@ from geocontact.data.parameter import SOURCES
 from geocontact.io.cases.case_settings import read_settings
 from geocontact.io.cases.gathering import read_gathering
 from geocontact.io.mats.layout import read_layout
+from geocontact.io.recordings.foot_description import read_foot_description
 from geocontact.io.recordings.gait_study import read_gait_study
 from geocontact.io.recordings.load_cells import read_regression
 from geocontact.io.recordings.overhead_study import read_overhead_study
@@ -200,6 +201,69 @@ end = 2.5
             ".* (source|note)": ("number", "bool", "list", "table", "date"),
         },
     ),
+    "foot": Description(
+        read_foot_description,
+        """name = "bench"
+[keel]
+length = { value = 240, unit = "mm", source = "paper", note = "table 1" }
+posterior = { value = 66, unit = "mm" }
+joints = 8
+lowest = { value = 66, unit = "mm" }
+highest = { value = 170, unit = "mm" }
+width = { value = 58, unit = "mm" }
+density = { value = 1600, unit = "kg/m^3" }
+thickness = { value = 7, unit = "mm" }
+bending = { value = 28, unit = "N m^2" }
+modulus = { value = 20, unit = "GPa" }
+shear_modulus = { value = 7, unit = "GPa" }
+torsional = { value = 30, unit = "N m^2" }
+retardation = { value = 0.002, unit = "s" }
+support = "pinned"
+[[keel.sections]]
+to = { value = 100, unit = "mm" }
+bending = { value = 28, unit = "N m^2" }
+[[keel.sections]]
+to = { value = 240, unit = "mm" }
+thickness = { value = 7, unit = "mm" }
+width = { value = 50, unit = "mm" }
+[settings]
+soft = { value = 70, unit = "mm" }
+[sole]
+spheres = "a.csv"
+source = "invented"
+below = { value = 28, unit = "mm" }
+exponent = { value = 1, unit = "-" }
+full_depth = { value = 2, unit = "mm" }
+threshold_speed = { value = 0.01, unit = "m/s" }
+[sole.zones.heel]
+stiffness = { value = 22, unit = "N/mm" }
+damping = { value = 300, unit = "N s/m" }
+static = { value = 0.8, unit = "-" }
+kinetic = { value = 0.7, unit = "-" }
+[bench]
+at = { value = 235, unit = "mm" }
+noise = { value = 0.03, unit = "mm" }
+series = { value = 120, unit = "N/mm" }
+tilt = { value = 20, unit = "deg" }
+travel = { value = 5, unit = "mm" }
+[[compressions]]
+name = "A"
+setting = "soft"
+sought = true
+curve = "a.csv"
+[[compressions]]
+fulcrum = { value = 100, unit = "mm" }
+stiffness = { value = 12, unit = "N/mm" }
+sd = { value = 0.3, unit = "N/mm" }
+""",
+        {
+            "name": WORD,
+            r"compressions \d+ (name|setting)": ("number", "text"),
+            "keel joints": ("number", "table"),
+            "keel sections": ("list",),
+            ".* (source|note)": ("number", "bool", "list", "table", "date"),
+        },
+    ),
     "gait": Description(
         read_gait_study,
         """[persons.P1]
@@ -208,6 +272,8 @@ static = "a.csv"
 side = "right"
 sex = "male"
 residual = { value = 45, unit = "%" }
+residual_length = { value = 150, unit = "mm" }
+foot = "a.csv"
 functional = "a.csv"
 law = "a.csv"
 [[trials]]
@@ -229,7 +295,7 @@ plates = "a.csv"
 plate = "own"
 other_plate = 2
 """,
-        {r"trials \d+ (name|plate|other_plate|ground)": ("number", "text")},
+        {r"trials \d+ (name|plate|other_plate|ground|setting)": ("number", "text")},
     ),
     "overhead": Description(
         read_overhead_study,

@@ -19,17 +19,22 @@ from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import Knob, Response, Vary
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unknown, sensitivities
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
+from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.leg import FootOffset
 
-VALUES: dict[Vary, Float[np.ndarray, " n"]] = {
-    "fulcrum": np.linspace(0.066, 0.151, 9),
-    "alignment": np.radians(np.linspace(-6.0, 6.0, 9)),
-    "stiffness": np.linspace(0.6, 1.6, 9),
-}
-"""That are tried: m, rad, factor."""
+ENDS: dict[Vary, tuple[float, float]] = {"alignment": (-6.0, 6.0), "stiffness": (0.6, 1.6)}
+"""Values that are tried, from and to: degrees, factor; a fulcrum goes over the range of its keel."""
+COUNT = 9
+"""Values that are tried."""
 ALIGNMENTS = np.radians([-6.0, -3.0, 0.0, 3.0, 6.0])
 """That go together with every value."""
 USUAL = TrialErrors()
+
+
+def values_of(vary: Vary, keel: Keel) -> Float[np.ndarray, " n"]:
+    """Values that are tried: m, rad, factor."""
+    values = np.linspace(*(keel.range if vary == "fulcrum" else ENDS[vary]), COUNT)
+    return np.radians(values) if vary == "alignment" else values
 
 
 @dataclass(frozen=True, eq=False)

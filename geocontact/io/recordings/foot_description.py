@@ -287,7 +287,7 @@ class FootDescription(Document):
     settings: dict[str, Length] = Field(default_factory=dict)
     sole: SoleDescription | None = None
     bench: Bench = Field(default_factory=Bench)
-    compressions: Annotated[tuple[Compression, ...], Listed("compression_{number}", doubled)] = ()
+    compressions: Annotated[tuple[Compression, ...], Listed("compression_{number}", doubled), Rows] = ()
 
 
 def read_foot_description(path: Path) -> FootDescription:

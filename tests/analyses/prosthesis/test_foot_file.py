@@ -18,6 +18,7 @@ from geocontact.analyses.prosthesis.foot_writer import write_foot
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import read
 from geocontact.below_knee_prosthesis.design.drawn import finer_feet
+from geocontact.below_knee_prosthesis.design.varied import values_of
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from tests.cli.calls import MESHES
 from tests.recording import opened
@@ -207,6 +208,7 @@ def test_a_foot_of_ones_own_with_more_spheres_has_the_same_zones(tmp_path: Path)
     x = two.sole.spheres.centre[:, 0]
     np.testing.assert_allclose(x[:2], [0.01 - 0.0075, 0.01 + 0.0075], atol=1e-12)  # rows at 10 and 40 mm: 30 mm apart
     assert two.keel == foot.keel and two.record is foot.record
+    assert values_of("fulcrum", foot.keel)[[0, -1]] == pytest.approx([0.07, 0.16])  # 66 to 151 mm stood there
     assert [len(each.sole.spheres) for each in finer_feet(foot_of(None), 2)] == [24, 48]
 
 

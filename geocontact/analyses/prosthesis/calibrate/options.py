@@ -27,7 +27,7 @@ MOST_STARTS, PITCH = 1000, math.radians(0.5)
 
 @dataclass(frozen=True)
 class ProsthesisCalibrateOptions(Options):
-    """Stiffness, damping and friction of five zones of a variable-stiffness foot from one recorded stance.
+    """Stiffness, damping and friction of the zones of a prosthetic foot from one recorded stance.
 
     Parameters
     ----------

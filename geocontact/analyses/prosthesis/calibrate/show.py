@@ -145,7 +145,7 @@ def calibration_page(
     ]
     return Page(
         title="Calibrated sole of a prosthetic foot",
-        subtitle="Stiffness, damping and friction of five zones from one stance",
+        subtitle="Stiffness, damping and friction of its zones from one stance",
         time=stance.time,
         time_label="time [s]",
         headline=answer(fit, numbers),

@@ -121,7 +121,7 @@ def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.Dat
     ]
     return Page(
         title=f"{counted(len(stances), 'prosthetic stance')} compared with force plates",
-        subtitle="Ground reaction, centre of pressure and ankle moment of a variable-stiffness foot",
+        subtitle="Ground reaction, centre of pressure and ankle moment of a prosthetic foot",
         time=100.0 * stances[0].errors.share,
         time_label="stance on the plate [%]",
         headline=answer(tables["summary"]),

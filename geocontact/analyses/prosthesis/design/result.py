@@ -51,7 +51,7 @@ from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Respon
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
-from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, VALUES
+from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, values_of
 from geocontact.below_knee_prosthesis.foot_numbers import leg_numbers, numbers_without_leg
 from geocontact.data.parameter import Number
 
@@ -173,7 +173,7 @@ class ProsthesisDesignResult(Result):
 def run(given: FootAndTrial, o: ProsthesisDesignOptions) -> ProsthesisDesignResult:
     """Bands of every outcome over the values, the best value for every aim."""
     trial = given.trial
-    knob = Knob(o.vary, VALUES[o.vary], trial.fulcrum, Terrain(o.slope, o.edge))
+    knob = Knob(o.vary, values_of(o.vary, given.foot.keel), trial.fulcrum, Terrain(o.slope, o.edge))
     found = varied(given, knob, o)
     sweep = Sweep(knob, found.drawn.drawn, found.drawn.free, o.level)
     near = {} if given.intact is None else given.intact.outcomes()

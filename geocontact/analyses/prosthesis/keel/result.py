@@ -2,9 +2,9 @@
 
 >>> import geocontact as gc
 >>> print(gc.prosthesis.keel())
-EI 22.7 N m² (95 % 20.9 … 24.7) with the plate on the keel, 92.3 N/mm in series (78 … 109)
+EI 22.7 N m² (95 % 20.9 … 24.7) with the plate on the keel, 92.3 N/mm (78 … 109) in series
 EI 19.7 N m² (95 % 18.4 … 21.2) and 38.5 N/mm a sphere of forefoot with the plate on the sole: compressions are met to
-0.6%
+0.7%
 fulcrum of medium at 117.4 mm (95 % 114.2 … 120.6)
 warning: as many numbers as compressions: nothing is over to test beam theory with
 """

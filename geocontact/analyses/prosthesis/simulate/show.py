@@ -52,6 +52,10 @@ OWN_FOOT = (
     "The foot is a keel on hinges on spheres, as its file describes it; numbers.csv says where each number is from. "
     "Nothing was fitted to this person."
 )
+OWN_CALIBRATED = (
+    "The foot is a keel on hinges on spheres, as its file describes it; the forces of the spheres, and the offset of "
+    "the foot from its standing trial, are from the law's file."
+)
 TWICE = (
     "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
     "well as in the bushing."
@@ -111,7 +115,8 @@ def small_forces(errors: pd.DataFrame | None) -> list[Words]:
 
 
 def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:
-    sole = CALIBRATED if o.law is not None else SOLE if o.foot is None else OWN_FOOT
+    usual, calibrated = (SOLE, CALIBRATED) if o.foot is None else (OWN_FOOT, OWN_CALIBRATED)
+    sole = usual if o.law is None else calibrated
     return [sole, TWICE if o.socket_turns == 0 else IN_TURNS]
 
 
