@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 from os.path import isfile, lexists
@@ -221,7 +221,7 @@ class Listed:
         named = core_schema.no_info_before_validator_function(self._named, handler(source))
         return core_schema.no_info_after_validator_function(self._require_apart, named)
 
-    def _named(self, rows: list[Any]) -> tuple[Any, ...]:
+    def _named(self, rows: Sequence[Any]) -> tuple[Any, ...]:
         return tuple(
             {"name": self.usual.format_map(defaultdict(str, row, number=k)), **row} if isinstance(row, dict) else row
             for k, row in enumerate(rows, 1)
