@@ -41,24 +41,26 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 |---|---|---|---|
 """
 BATTERY = """
-Over the commands, the shipped trials are damaged in {count} ways, none of which is silent: {counts}. A real walk is
-damaged in {real} more. {recordings} real recordings, {models} motions of models and {meshes} sets of surfaces pass
-without a warning but two: in a `.trc` of a published set two markers of the left foot jump by 43 and 54 mm within one
-frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for one frame, in the files themselves.
+Over the commands, the shipped trials are damaged in {count} ways, each of which is refused or adds a warning:
+{counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and {meshes}
+sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set two markers
+of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for
+one frame, in the files themselves.
 
 `--axes` turns markers and plates alike: forces, moments, points. A table of plates whose forces are upwards before that
 turn and not after it is in the model's axes already: it stays as it is, with a warning.
 
 What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
 times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
-a table; a mirrored force along the floor of who stands up.
+a table; a mirrored force along the floor of who stands up; pounds for kilograms in a set-up of `scale`, beside which
+there is no plate; steps with which a recording begins or ends, which are not whole.
 
 ## On the way out: a result against its data
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known and no interval is written. A doubt is a warning. It is in {judged}; studies and `gap diagnose --many` list
-it for every trial.
+called known, and ends of intervals stay empty. A doubt is a warning. It is in {judged}; studies and `gap diagnose
+--many` list it for every trial.
 
 | check | doubtful | contradicts |
 |---|---|---|

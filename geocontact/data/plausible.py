@@ -184,6 +184,8 @@ YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5), why="gels to
 SOFTER = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e4), why="gels to cortical bone")
 """Bone has 20 GPa; metal and ceramics, of which the harder body is, 100 and more."""
 CONTACT = Plausible("a modulus of contact", MPa, (1e-3, 1e6), (5e-3, 3e5), why="gels to ceramic on ceramic")
+BEARING = Plausible("a pressure in a bearing", MPa, (0.0, 1e4), (1e-3, 60.0), why="soft layers; polyethylene to 50 MPa")
+ROUNDED = Plausible("the radius of a part of a body", mm, (1e-3, 1e4), (0.5, 180.0), why="small implants to a torso")
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))

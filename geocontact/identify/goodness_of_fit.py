@@ -142,7 +142,10 @@ def _memory(values: Float[np.ndarray, " n"]) -> float:
 
 
 def of_residual(name: str, unit: str, residual: Float[np.ndarray, " n"], noise: float) -> Iterable[Doubt]:
-    """A doubt for a channel whose residual is not its stated noise."""
+    """A doubt for a channel whose residual is not its stated noise, or of which nothing could be compared."""
+    if not np.isfinite(residual).any():
+        yield Doubt(f"{name}: nothing could be compared", False)
+        return
     test = residual_test(residual, noise)
     if test.excess > SURE and test.ratio > LARGER:
         times = f"{test.ratio:.3g} times the stated noise of {noise:.3g} {unit}"
@@ -156,23 +159,23 @@ def of_r2(name: str, r2: float) -> Iterable[Doubt]:
 
 
 def of_bounds(values: Mapping[str, tuple[float, float, float]], allowed: Iterable[str] = ()) -> Iterable[Doubt]:
-    """A doubt for every parameter (value, lower, upper) that is on a bound of its search.
+    """A doubt for every parameter that is on a bound of its search.
 
-    `allowed` are parameters that may be there: their bound is what is physical.
+    `values` are value, lower and upper bound by name; `allowed` are parameters that may be there: their bound is what
+    is physical.
     """
+    free = frozenset(allowed)
     for name, (value, lower, upper) in values.items():
-        width = upper - lower
-        if name in set(allowed) or not np.isfinite(width):
-            continue
+        width = upper - lower if np.isfinite(upper - lower) else abs(value)
         for end, where in ((lower, "lower"), (upper, "upper")):
-            if abs(value - end) <= AT_BOUND * width:
+            if name not in free and np.isfinite(end) and abs(value - end) <= AT_BOUND * width:
                 yield Doubt(f"{name} is on the {where} bound of its search, {end:.4g}", False)
 
 
 def of_range(what: str, share: float, whole: str = "the time") -> Iterable[Doubt]:
-    """A doubt for a share of the samples in which the model does not hold; `what` ends in "for": "outside … for".
+    """A doubt for samples in which the model does not hold.
 
-    `whole` is what the share is of.
+    `what` ends in "for": "outside … for"; `share` is that of them, `whole` what it is of.
     """
     if share > 0.0:
         shown = f"{share:.0%}" if share >= 5e-3 else f"{share:.2%}"
@@ -222,9 +225,9 @@ def of_size(name: str, interval: tuple[float, float], known: Plausible) -> Itera
 
 
 def of_verdict(what: str, interval: tuple[float, float], turns: float, shown: str = "") -> Iterable[Doubt]:
-    """A doubt for a verdict, in words, that turns where a number passes `turns`, if its interval reaches that.
+    """A doubt for a verdict whose interval reaches the other one.
 
-    `shown` is the interval in words.
+    `what` is the verdict in words; it turns where a number passes `turns`. `shown` is the interval in words.
     """
     lower, upper = interval
     if lower <= turns <= upper:

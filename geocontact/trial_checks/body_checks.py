@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import pi
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND
@@ -86,13 +86,13 @@ def in_range(trial: TrialInputs) -> Iterator[Contradiction]:
         if joint.parent == GROUND and len(joint.coordinates) == FREE
         for c in joint.coordinates
     }
-    far = [
-        c.name
-        for k, c in enumerate(moved.model.coordinates)
-        if c.kind == "translational" and np.abs(moved.values[:, k]).max(initial=0.0) > FAR
-    ]
-    if far:
-        what = f"{far[0]} is up to {np.abs(moved.values).max():.3g} m from where the model's joint is"
+    reached = {
+        c.name: float(np.abs(moved.values[:, k]).max(initial=0.0)) for k, c in enumerate(moved.model.coordinates)
+    }
+    shifts = [c.name for c in moved.model.coordinates if c.kind == "translational"]
+    far = max(shifts, key=reached.__getitem__, default=None)
+    if far is not None and reached[far] > FAR:
+        what = f"{far} is up to {reached[far]:.3g} m from where the model's joint is"
         yield Contradiction(moved.source, "", what, "is it in m, not in mm?")
     beyond = []
     for k, c in enumerate(moved.model.coordinates):
@@ -208,6 +208,13 @@ def bones(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(moved.source, "", what, "is the model scaled by the right markers?")
 
 
+def _longest(there: Bool[np.ndarray, " t"]) -> Int[np.ndarray, " k"]:
+    """Places of the longest run of what is there."""
+    edges = np.flatnonzero(np.diff(np.r_[False, there, False].astype(int)))
+    runs = [np.arange(start, stop) for start, stop in zip(edges[::2], edges[1::2], strict=True)]
+    return max(runs, key=len, default=np.arange(0))
+
+
 def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
     """Weight and acceleration of a model that rises, m (g + a), against the force of all plates."""
     moved = trial.moved
@@ -220,7 +227,7 @@ def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
     expected = np.gradient(np.gradient(height, step), step)
     force = _smooth(force, step)
     off = force / (moved.model.mass * GRAVITY) - 1.0 - expected / GRAVITY
-    other = np.flatnonzero(np.abs(off) > OFF)
+    other = _longest(np.abs(off) > OFF)
     on = trial.plates[0]
     if moved.model.mass > 0.0 and len(other) * step > LONG:
         names = " and ".join(each.plate.name for each in trial.plates)

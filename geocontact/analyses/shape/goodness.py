@@ -11,8 +11,9 @@ from collections.abc import Iterable
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.plausible import ROUNDED
 from geocontact.geometry.fit.found import ShapeFit
-from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_size
 
 POOR, NONE = 0.1, 0.3
 """Shares of the radius: root mean square of the points from which on it is doubtful; of inliers it contradicts."""
@@ -29,6 +30,7 @@ def goodness_of_shape(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]
     doubts = [*unsaid(name, fit, points)]
     if fit.radius is not None:
         doubts += _of_curved(name, fit, fit.radius, points)
+        doubts += of_size(f"{name}: radius", fit.radius_interval or (fit.radius, fit.radius), ROUNDED)
     share = float(fit.quality.inlier.mean())
     if fit.exact_in_part or share < FEW:
         said = f"{name}: {1.0 - share:.0%} of the points are off the {fit.shape}"

@@ -131,8 +131,6 @@ BY_HAND = (
     ("<ScaleSet><objects>", "<Scales><objects>"),
     ("</objects></ScaleSet>", "</objects></Scales>"),
 )
-OF_SETTLE = "the pressure of knee settle is judged with its result"
-OF_FIT = "the radius of a fit is judged with its result"
 OF_SCALE = "scale compares the mass of a set-up with nothing"
 PRESSURE = "(warned|contradicts): .*(exchanged|pressure)"
 
@@ -182,14 +180,14 @@ FINDINGS: dict[str, Finding] = {
         settled(bodies=("tibial_insert", "femoral_component")), "warned: `bodies`: .*are they exchanged"
     ),
     "k_m: poses in m under [mm]": Finding(settled(poses="m"), "refused: .*no contact.*check motion, unit"),
-    "k_region: a strip of the insert": Finding(settled(region="nz>0.25"), PRESSURE, silent=OF_SETTLE),
+    "k_region: a strip of the insert": Finding(settled(region="nz>0.25"), PRESSURE),
     "s_toolmA: current in mA under [A]": Finding(in_milliamperes, "warned: .*`tool`: 4820 A is unusual.*4820 mA meant"),
     "s_upr: upright in the middle of the work": Finding(
         lambda folder: raised_arm(folder, upright=(3.0, 4.0)), "warned: `upright`: the right arm is 124 degrees up"
     ),
     "s_device: a cuff of 16 mm for 160": Finding(short_cuff, "refused: .*the cuff is 16 mm long"),
     "q_cm: a sphere of 20 mm in cm": Finding(
-        lambda _: heard(gc.fit_shape, SPHERE, shape="sphere", unit="cm"), "(warned|refused): .*200", silent=OF_FIT
+        lambda _: heard(gc.fit_shape, SPHERE, shape="sphere", unit="cm"), "warned: .*radius.*200.*unusual"
     ),
 }
 """`k_thickness`, 8 for 8 mm, is what the help says of lengths without a unit, and no wrong input."""

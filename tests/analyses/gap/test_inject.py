@@ -123,6 +123,6 @@ def test_python_and_command_write_the_same_files(tmp_path: Path) -> None:
         done(call("gap", "inject", case, *words))
         called = gc.inject(case, effect="damping", value={"damping.b": 12.5}, bare=True).write(tmp_path / "called")
     names = [p.relative_to(called) for p in called.rglob("*") if p.is_file() and p.name != "run.json"]
-    assert len(names) == 11, sorted(map(str, names))
+    assert len(names) == 12, sorted(map(str, names))
     for name in names:
         assert (tmp_path / "typed" / name).read_bytes() == (called / name).read_bytes(), name

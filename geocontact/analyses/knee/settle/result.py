@@ -34,8 +34,9 @@ from geocontact.analyses.knee.settle.options import SettleOptions
 from geocontact.analyses.knee.settle.pose_error import settle_error
 from geocontact.analyses.knee.settle.show import thinned_page
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import BEARING
 from geocontact.geometry.contact_area.published import KneeRun
-from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range, of_size
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.loads.pressure_pose_error import PressureUncertainty
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
@@ -249,7 +250,10 @@ def goodness_of(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> G
     if balance is not None and balance.difference > BALANCED:
         line = f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`"
         doubts.append(Doubt(line, balance.difference > UNBALANCED, balance.difference))
-    return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area", "energy"))
+    if s.kept.any():
+        peak = float(np.nanmax(s.peaks))
+        doubts += of_size("the largest pressure", (peak, peak), BEARING)
+    return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area", "pressure", "energy"))
 
 
 def _between(values: Float[np.ndarray, " t"], form: str) -> str:

@@ -84,9 +84,19 @@ def read(o: ShoulderCompareOptions) -> ArmAndRecording:
     """Both files."""
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
     simulated, phase, out = _simulated(o.simulated, {ELEVATION, FORCE, *recorded.curves})
+    _doubt_side(o)
     add_input("simulated", o.simulated, frames=len(phase))
     add_input("recorded", o.recorded, samples=len(recorded.time))
     return ArmAndRecording(simulated, phase, out, recorded)
+
+
+def _doubt_side(o: ShoulderCompareOptions) -> None:
+    """A warning where the names of what was recorded and of what was simulated are of two sides."""
+    named = f"{o.recorded.stem} {o.map or ''}".lower()
+    for side, other in (("right", "left"), ("left", "right")):
+        if o.simulated.stem.lower() == side and other in named and side not in named:
+            what = f"{o.simulated.name} is of the {side} arm, names of what was recorded say {other}"
+            reserve(f"{o.recorded.name}: {what}: are both of one arm?")
 
 
 def _simulated(path: Path, channels: Collection[str]) -> tuple[Channels, tuple[str, ...], float]:
