@@ -127,7 +127,8 @@ def test_shipped_trial_from_markers_to_files(found: ProsthesisSimulateResult, tm
     (1.001 * plate).to_csv(tmp_path / "out" / "plane" / "second.csv")  # not the same trial to the last digit
     again = text.replace("[constants]", '[from.t02]\ninputs = "foot.csv"\noutputs = "second.csv"\n\n[constants]')
     (tmp_path / "out" / "plane" / "gather.toml").write_text(again)
-    case = gc.gather(tmp_path / "out" / "plane" / "gather.toml").case
+    with pytest.warns(gc.InputWarning, match="force_x of trial t02 is that of trial t01 at the same times"):
+        case = gc.gather(tmp_path / "out" / "plane" / "gather.toml").case
     system, trial = gc.system_of(case), case.calibration[0]
     up = system.simulate(trial, {each.name: each.start for each in case.parameters})[:, 1]
     weight = 77.3 * 9.80665

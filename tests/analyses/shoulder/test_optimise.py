@@ -322,7 +322,7 @@ def spoilt(folder: Path, old: str, new: str) -> Path:
         (
             "[tasks.T1]",
             "[tasks.T1]\nweight = 2",
-            "[tasks.T1] weight: is not known here; write tool, push, dominant_share",
+            "[tasks.T1] weight: is not known here; write tool, push, push_direction, dominant_share",
         ),
         ("[persons.P1]", "[people.P1]", "people: is not known here; write tasks, persons, trials"),
         ('markers = "P1T1.trc"', 'markers = "lost.trc"', "lost.trc"),
