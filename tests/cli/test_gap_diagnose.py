@@ -182,7 +182,9 @@ def many(good: Path, tmp_path_factory: pytest.TempPathFactory) -> Many:
 @pytest.mark.slow
 def test_a_wrong_case_costs_the_others_nothing(many: Many) -> None:
     assert many.code == 2, many.err
-    (line,) = many.err.splitlines()
+    said = many.err.splitlines()
+    (line,) = [each for each in said if "furlong" in each]  # how far the work is stands beside it on a busy machine
+    assert not [each for each in said if each.startswith("warning:")] and "Traceback" not in many.err
     assert "wrong" in line and "t02.csv line 1, column 3: 'force' is in 'furlong'" in line
     expected = {"run.json", "summary.csv", *SAME, *(f"{name}/{table}" for name in SAME for table in TABLES)}
     assert set(inventory(many.folder)) == expected
