@@ -109,6 +109,13 @@ def done(result: Call) -> Call:
     return result
 
 
+def contradicting(result: Call) -> Call:
+    """The same call, whose result contradicts its data: it is written, and the command ends with 1."""
+    assert (result.code, result.complaints) == (1, []), result.err
+    assert result.out.startswith("the result contradicts its data"), result.out
+    return result
+
+
 def process(*arguments: object, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     """The program as a user starts it from a checkout."""
     command = [sys.executable, str(ROOT / "cli.py"), *map(str, arguments)]

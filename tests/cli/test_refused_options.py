@@ -138,7 +138,7 @@ OPTIONS: Cases = {
     "placement by an unknown body": ({"--place-fixed": f"{KNEE}:patella"}, ("knee.osim", "'patella'", "tibial_insert")),
     "placement by a missing model": ({"--place-fixed": "nowhere.osim:tibia"}, ("nowhere.osim", "check the path")),
     "comparison missing": ({"--compare": "nowhere.csv"}, ("nowhere.csv", "there is no such file")),
-    "comparison empty": (compared(""), ("measured.csv", "area.csv")),
+    "comparison empty": (compared(""), ("measured.csv", "is empty")),
     "comparison without time": (compared("area_fixed [mm^2]\n1\n"), ("measured.csv", "'time [s]'")),
     "comparison without an area": (compared("time [s],force [N]\n0,1\n"), ("measured.csv", "area_fixed [mm^2]")),
     "comparison outside the time window": (

@@ -302,6 +302,7 @@ other_plate = 2
         """[tasks.T1]
 tool = { value = 1.3, unit = "kg" }
 push = { value = 35, unit = "N" }
+push_direction = [0, 0.5, 1.0]
 dominant_share = 0.5
 [persons.P1]
 mass = { value = 82, unit = "kg" }
@@ -335,8 +336,10 @@ without = "A"
 based_on = "lucy"
 [numbers]
 cuff_length = { value = 160, unit = "mm", source = "invented", note = "longer" }
+[controller]
+delay = { value = 0.05, unit = "s", source = "invented", note = "slow" }
 """,
-        {"name|based_on": WORD, "numbers .* note": ("number", "bool", "list", "table", "date")},
+        {"name|based_on": WORD, "(numbers|controller) .* note": ("number", "bool", "list", "table", "date")},
     ),
     "person": Description(
         lambda path: read_person_file(path, ("upper_arm", "torso")), 'upper_arm = { value = 310, unit = "mm" }\n', {}

@@ -15,6 +15,7 @@ SHIPPED = (
     "*.csv",
     "*.mot",
     "*.osim",
+    "foot_bench/*",
     "mat_*/*",
     "overhead_*/*",
     "gait_P1_*/*",

@@ -5,6 +5,7 @@ No noise is stated of markers: what is advised stands in its place, and what no 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 import numpy as np
@@ -65,8 +66,14 @@ def goodness_of_loads(forces: GeneralisedForces, said: str, misplaced: list[Misp
         doubts += of_range("the residual force exceeds a third of the weight for", float(np.mean(off)))
     for load in misplaced:
         away = f"{load.distance:.2f} m from it and {load.nearest_distance:.2f} m from {load.nearest}"
-        doubts.append(Doubt(f"the load on {load.body} acts {away}", True, load.distance))
+        other = _without_side(load.body) == _without_side(load.nearest)  # a worn device may press anywhere
+        doubts.append(Doubt(f"the load on {load.body} acts {away}", other, load.distance))
     return GoodnessOfFit(tuple(doubts), ("residual force", "residual moment", "places of the loads"))
+
+
+def _without_side(body: str) -> str:
+    """Name of a body without its side: calcn_r, left_foot."""
+    return re.sub(r"(^|_)(right|left|r|l)(?=_|$)", "", body.lower())
 
 
 def goodness_of_joint(points: JointPoints, spread: float, off: tuple[float, float], halves: float) -> GoodnessOfFit:

@@ -57,7 +57,7 @@ def test_the_verdict_is_said_in_one_sentence(found: DiagnoseResult) -> None:
 
 def test_tables_agree_with_the_answer(found: DiagnoseResult) -> None:
     answer, tables = found.diagnosis, found.tables()
-    assert list(tables) == ["gap_map", "ranking", "held_out", "trials"]
+    assert list(tables) == ["gap_map", "ranking", "held_out", "budget", "trials"]
     ranking = tables["ranking"]
     assert ranking["gain [nats]"].is_monotonic_decreasing
     told = ranking.dropna(subset="probability [-]").set_index("answer")["probability [-]"]
@@ -105,7 +105,7 @@ def test_python_and_command_write_the_same_tables(case: Path, tmp_path: Path) ->
         typed = done(call("gap", "diagnose", case, "--bare", "--out", tmp_path / "typed", folder=tmp_path / "typed"))
         called = gc.diagnose(case, bare=True).write(tmp_path / "called")
     tables = {file.name for file in called.glob("*.csv")}
-    assert tables == {f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "trials")}
+    assert tables == {f"{name}.csv" for name in ("gap_map", "ranking", "held_out", "budget", "trials")}
     for name in (*tables, "diagnosis.json"):
         assert typed.bytes(name) == (called / name).read_bytes(), name
 

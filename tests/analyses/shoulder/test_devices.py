@@ -24,7 +24,7 @@ PAGE = Path(__file__).resolve().parents[3] / "docs" / "reference" / "input_files
 def documented() -> dict[str, str]:
     """Unit by number."""
     text = PAGE.read_text(encoding="utf-8")
-    section = text[text.index("| numbers | unit | what |") : text.index("**Person**")]
+    section = text[text.index("| numbers | unit | what |") : text.index("**Controller**")]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if "`" in line]
     return {name: unit for names, unit, _ in rows for name in re.findall(r"`(\w+)`", names)}
 

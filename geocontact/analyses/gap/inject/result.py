@@ -14,7 +14,7 @@ r"""Would an effect be found? `geocontact gap inject`, `gc.inject`.
 >>> text += '[parameters.k]\nstart = 50.0\nlower = 10.0\nupper = 200.0\nunit = "N m/rad"\n'
 >>> _ = Path("case/case.toml").write_text(text)
 >>> gc.inject("case", effect="damping", size=1.0).sentences[0]
-'injected damping (damping.b = 0.9232 N m s/rad, damping.exponent = 1 -); it makes a gap of 1 times the noise
+'injected damping (damping.b = 0.9232 N m s/rad, damping.exponent = 1); it makes a gap of 1 times the noise
 floor'
 """
 
