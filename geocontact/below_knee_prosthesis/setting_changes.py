@@ -170,7 +170,7 @@ def _change(
     )
 
 
-def _welch(sides: Sequence[Float[np.ndarray, " n"]], level: float) -> float:
+def _welch(sides: Sequence[Float[np.ndarray, " _"]], level: float) -> float:
     """Half the interval of a difference of means of unequal variances; NaN with a single value on a side."""
     if min(map(len, sides)) < 2:
         return float("nan")

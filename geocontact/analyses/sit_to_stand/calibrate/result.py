@@ -1,7 +1,7 @@
 """Contacts from trials of standing up: `geocontact sit-to-stand calibrate`, `gc.sit_to_stand.calibrate`.
 
 >>> import geocontact as gc
->>> result = gc.sit_to_stand.calibrate("meshes/standing_up/study.toml", nodes=5, resamples=0)
+>>> result = gc.sit_to_stand.calibrate("meshes/standing_up/study.toml", nodes=10, resamples=0)
 >>> print(result.sentences[0])
 3 trials: ground reaction within … N, centre of pressure within … mm, angles within …° (largest RMSD of a trial)
 """
