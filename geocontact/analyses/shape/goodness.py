@@ -30,7 +30,6 @@ def goodness_of_shape(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]
     doubts = [*unsaid(name, fit, points)]
     if fit.radius is not None:
         doubts += _of_curved(name, fit, fit.radius, points)
-        doubts += of_size(f"{name}: radius", fit.radius_interval or (fit.radius, fit.radius), ROUNDED)
     share = float(fit.quality.inlier.mean())
     if fit.exact_in_part or share < FEW:
         said = f"{name}: {1.0 - share:.0%} of the points are off the {fit.shape}"
@@ -41,11 +40,13 @@ def goodness_of_shape(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]
 
 
 def unsaid(name: str, fit: ShapeFit, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:
-    """What no other warning says: points that are thick beside a plane, a radius that the points do not determine."""
+    """What no other warning says: points thick beside a plane, a radius that they do not determine, its size."""
     if fit.radius is None:
         yield from _of_plane(name, fit, points)
     elif fit.radius_interval is not None and fit.radius_interval[0] <= 0.0:
         yield Doubt(f"{name}: the interval of the radius reaches zero and below", False)
+    else:
+        yield from of_size(f"{name}: radius", fit.radius_interval or (fit.radius, fit.radius), ROUNDED)
 
 
 def _of_curved(name: str, fit: ShapeFit, radius: float, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:

@@ -79,7 +79,9 @@ def test_the_ends_of_a_rod_are_outliers_of_its_wall() -> None:
 def test_units_and_placement(tmp_path: Path) -> None:
     place = tmp_path / "place.txt"
     place.write_text("1 0 0 1\n0 1 0 -2\n0 0 1 3\n0 0 0 1\n", encoding="utf-8")
-    here, there, larger = (fit(SPHERE, "sphere", **options).fit for options in ({}, {"place": place}, {"unit": "cm"}))
+    here, there = (fit(SPHERE, "sphere", **options).fit for options in ({}, {"place": place}))
+    with pytest.warns(gc.InputWarning, match="radius: 200 mm is unusual"):
+        larger = fit(SPHERE, "sphere", unit="cm").fit
     assert here.radius == pytest.approx(20e-3, abs=1e-7) and here.axis is None
     assert there.point - here.point == pytest.approx([1e-3, -2e-3, 3e-3], abs=1e-7)
     assert larger.radius == pytest.approx(10.0 * here.radius, rel=1e-9)

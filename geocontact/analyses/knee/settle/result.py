@@ -250,7 +250,7 @@ def goodness_of(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> G
     if balance is not None and balance.difference > BALANCED:
         line = f"work and stored energy differ by {balance.difference:.1%}; give a smaller `piece`"
         doubts.append(Doubt(line, balance.difference > UNBALANCED, balance.difference))
-    if s.kept.any():
+    if np.isfinite(s.peaks).any():
         peak = float(np.nanmax(s.peaks))
         doubts += of_size("the largest pressure", (peak, peak), BEARING)
     return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area", "pressure", "energy"))
