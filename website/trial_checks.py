@@ -6,6 +6,7 @@ What the battery of the tests holds stands in the tests; the page counts it.
 from __future__ import annotations
 
 import inspect
+import json
 from collections.abc import Iterable, Sequence
 
 from geocontact.analyses.catalogue import ENTRIES
@@ -54,6 +55,9 @@ What no check can see: the plates of another trial of the same person on the sam
 times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
 a table; a mirrored force along the floor of who stands up; pounds for kilograms in a set-up of `scale`, beside which
 there is no plate; steps with which a recording begins or ends, which are not whole.
+
+Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
+(`python -m benchmarks.robustness.checks_cost`).
 
 ## On the way out: a result against its data
 
@@ -140,6 +144,7 @@ def trial_checks() -> str:
     trials = HEAD.format(commands=listed(list(test_commands.COMMANDS))) + _rows(CHECKS, _damages(test_checks.DAMAGED))
     surfaces = SURFACES + _rows(MESH_CHECKS, _damages(test_mesh_checks.DAMAGED))
     counts = ", ".join(f"`{name}` {len(damages)}" for name, (_, _, damages) in test_commands.COMMANDS.items())
+    cost = json.loads((ROOT / "benchmarks" / "results" / "checks_cost.json").read_text("utf-8"))["figures"]
     battery = BATTERY.format(
         count=len(test_commands.EACH),
         counts=counts,
@@ -148,6 +153,9 @@ def trial_checks() -> str:
         models=len(real.MODELS),
         meshes=len(real.SURFACES),
         judged=listed(_judged()),
+        median=cost["median"],
+        most=cost["most"],
+        commands=sum(len(row) > 2 for row in cost["commands"].values()),
     )
     results = ""
     for name, line in tests_of_fit().items():

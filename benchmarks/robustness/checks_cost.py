@@ -21,6 +21,7 @@ from benchmarks.whole_command import PROGRAM
 
 CHECKS = (
     ("geocontact.trial_checks.table", "contradictions", "trial"),
+    ("geocontact.trial_checks.mesh_checks", "surface_contradictions", "trial"),
     ("geocontact.identify.goodness_of_fit", "residual_test", "fit"),
     ("geocontact.analyses.frame.record:Record", "judge", "fit"),
 )

@@ -814,3 +814,13 @@ def test_from_a_clone_to_the_first_result() -> None:
     page = (ROOT / "docs/reference/speed.md").read_text(encoding="utf-8")
     assert told["page"] and told["demo_s"] <= told["aim_s"] == 90.0
     assert f"It takes {told['demo_s']:.0f} s on two shared cores" in page
+
+
+def test_what_the_checks_cost() -> None:
+    """The page is made from the file; the aim is a share of a command's CPU time in the median."""
+    told = results("checks_cost")["figures"]
+    shares = sorted(row["share"] for row in told["commands"].values() if len(row) > 2)
+    assert len(shares) >= 15 and told["most"] == shares[-1]
+    assert shares[len(shares) // 2] <= told["aim"] == 0.03
+    page = (ROOT / "docs/reference/trial_checks.md").read_text(encoding="utf-8")
+    assert f"took {told['median']:.1%} of a command's CPU time" in page.replace("\n", " ")
