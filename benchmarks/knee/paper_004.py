@@ -74,10 +74,10 @@ def figures(data: Path, work: Path) -> dict[str, object]:
 
 
 def geocontact(*words: object) -> None:
-    """One command, as typed."""
+    """One command, as typed; one whose result contradicts its data ends with 1 and is written all the same."""
     command = [sys.executable, str(HERE.parent / "cli.py"), *map(str, words)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
+    if done.returncode and not done.stdout.startswith("the result contradicts its data"):
         raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
 
 
@@ -138,7 +138,9 @@ def modulus(data: Path, work: Path, name: str) -> dict[str, object]:
     sides = {"total": told, **told["compartments"]}
     return {
         "E* [MPa]": {side: rounded(each["E_star_Pa"] * 1e-6) for side, each in sides.items()},
-        "95 % [MPa]": {side: [rounded(v * 1e-6) for v in each["E_star_ci95_Pa"]] for side, each in sides.items()},
+        "95 % [MPa]": {
+            side: [rounded(v * 1e-6) for v in ends] for side, each in sides.items() if (ends := each["E_star_ci95_Pa"])
+        },
         "RMSE [N]": {side: round(each["rmse_N"], 1) for side, each in sides.items()},
         "R2": {side: round(each["r2"], 3) for side, each in sides.items()},
         "E [MPa]": {ratio: rounded(value * 1e-6) for ratio, value in told["E_Pa"].items()},
@@ -199,9 +201,12 @@ def og1_peaks(data: Path) -> list[float]:
 
 
 def intervals_of(told: dict[str, dict]) -> dict[str, dict[str, object]]:
-    """Each free number in SI units, with its interval by profile likelihood and by block bootstrap."""
+    """Each free number in SI units, with its interval by profile likelihood and by block bootstrap.
+
+    Without them where the result contradicts its data.
+    """
     kept = ("value", "profile_likelihood", "block_bootstrap")
-    return {name: {key: rounded(each[key]) for key in kept if key in each} for name, each in told.items()}
+    return {name: {key: rounded(each[key]) for key in kept if each.get(key) is not None} for name, each in told.items()}
 
 
 def load_cells(data: Path, work: Path) -> dict[str, object]:

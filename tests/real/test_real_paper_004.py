@@ -93,8 +93,12 @@ def test_the_page_says_what_was_found() -> None:
         assert f"{fits[name]['radius_mm']:.2f} ({low:.2f} … {high:.2f})" in PAGE
     for name, rows in modulus.items():
         for side in ("total", "medial", "lateral"):
+            value = f"{rows['E* [MPa]'][side]:.2f}"
+            if rows["R2"]["total"] < 0.0:  # the law contradicts the forces: a number without an interval
+                assert side not in rows["95 % [MPa]"] and f"| {value} |" in PAGE, (name, side)
+                continue
             low, high = rows["95 % [MPa]"][side]
-            assert f"{rows['E* [MPa]'][side]:.2f} ({low:.2f} … {high:.{2 if high < 10 else 1}f})" in PAGE, (name, side)
+            assert f"{value} ({low:.2f} … {high:.{2 if high < 10 else 1}f})" in PAGE, (name, side)
     for name in ("area, workshop's meshes", "area, original meshes"):
         for level in paper_004.THRESHOLDS:
             low, high = FOUND[name][f"{level:g}"]
