@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 
@@ -169,19 +169,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
     curves = held_out(problem, errors, named)
-    gap = {
-        name: ChannelGap(
-            s.rmse_before,
-            s.rmse_after,
-            s.floor,
-            s.reduction,
-            (s.low, s.high),
-            s.unexplained,
-            problem.system.unit(name),
-            sum(bool(np.isfinite(trial.measured[:, problem.system.outputs.index(name)]).any()) for trial in curves),
-        )
-        for name, s in error_reduction_of(errors, problem, chosen, named, found.data_error).items()
-    }
+    gap = _gaps(found, errors, named, curves)
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
     after = chosen if named else None
@@ -220,6 +208,25 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)
+
+
+def _gaps(found: Attribution, errors: RawInputErrors, named: bool, curves: Sequence[HeldOut]) -> dict[str, ChannelGap]:
+    """Size of each channel's gap, and how far it shrinks."""
+    problem, chosen = found.problem, found.answer.chosen.judged
+    shrunk = error_reduction_of(errors, problem, chosen, named, found.data_error)
+    return {
+        name: ChannelGap(
+            s.rmse_before,
+            s.rmse_after,
+            s.floor,
+            s.reduction,
+            (s.low, s.high),
+            s.unexplained,
+            problem.system.unit(name),
+            sum(bool(np.isfinite(trial.measured[:, problem.system.outputs.index(name)]).any()) for trial in curves),
+        )
+        for name, s in shrunk.items()
+    }
 
 
 def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ranked, ...]:
