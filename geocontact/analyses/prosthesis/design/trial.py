@@ -77,7 +77,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     intact = intact_side(o, trial)
     zones = ZoneParameters(foot.sole, foot.law)
     if o.numbers is None:
-        reserve("for this sole only the general prior is known: give the `numbers` of a calibration")
+        reserve("for this sole only the general prior is used: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, stance, zones.sd, intact)
     return FootAndTrial(foot, trial, stance, _known(o.numbers, zones), intact)
 
