@@ -52,7 +52,7 @@ def prepare(folder: Path, trials: int = TRIALS) -> Path:
 
 
 def command(file: Path, out: Path) -> list[str]:
-    return [sys.executable, "cli.py", "cohort", str(file), "--out", str(out), "--workers", "2"]
+    return [sys.executable, "cli.py", "cohort", str(file), "--run-simulator", "--out", str(out), "--workers", "2"]
 
 
 def start(file: Path, out: Path) -> subprocess.Popen[bytes]:

@@ -28,6 +28,7 @@ RESULTS = "Results"
 FORMS = {
     "parquet": "Also write the tables as .parquet, with all their digits.",
     "netcdf": "Also write the tables over time as .nc (netCDF), with units.",
+    "excel_safe": "Write ' before texts in .csv that a spreadsheet program would run as a formula.",
     "no_overwrite": "Refuse a folder that holds results already.",
 }
 MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
@@ -60,7 +61,7 @@ class Command:
         """Run it with what was typed, and say what was found; the exit code."""
         with self.respelling():
             folder, asked = typed["out"], _typed(self.known, self.rest, arguments, typed)
-            forms = TableForms(typed.get("parquet", False), typed.get("netcdf", False))
+            forms = TableForms(*(typed.get(name, False) for name in ("parquet", "netcdf", "excel_safe")))
             result, files = self.execute(
                 {**asked, **forms.given()}, folder, forms, overwrite=not typed.get("no_overwrite", False)
             )
@@ -73,8 +74,11 @@ class Command:
         self, typed: Mapping[str, Any], folder: Path, forms: TableForms = AS_ALWAYS, *, overwrite: bool = True
     ) -> tuple[Result, list[str]]:
         """Run it with options as typed, by their names in `run.json`; the result and the names of its files."""
-        given = {one.name: one.read(typed[key(one)]) for one in self.known if key(one) in typed}
-        return self.execute_in_si(given, typed, folder, forms, overwrite=overwrite)
+        return self.execute_in_si(self.in_si(typed), typed, folder, forms, overwrite=overwrite)
+
+    def in_si(self, typed: Mapping[str, Any]) -> dict[str, Any]:
+        """Options as typed in SI, by their names in Python."""
+        return {one.name: one.read(typed[key(one)]) for one in self.known if key(one) in typed}
 
     def execute_in_si(
         self,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from geocontact.analyses.frame.consent import ALLOWED, require_consent
 from geocontact.analyses.frame.rerun import EarlierRun, differing, read_run, results_of
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.cli.command import Command
@@ -16,7 +17,7 @@ from geocontact.data.version import VERSION
 DIFFERENT = 1
 
 
-def rerun(run: Path, *, out: Path | None = None) -> int:
+def rerun(run: Path, *, out: Path | None = None, run_simulator: bool = False) -> int:
     """Repeat a run from its run.json and compare the results.
 
     File names start from the present folder, as they did at first. Exit 1 when a file of the results differs.
@@ -27,6 +28,8 @@ def rerun(run: Path, *, out: Path | None = None) -> int:
         A run.json, or the folder that it is in.
     out
         Folder for the new results; without it they are only compared, not saved.
+    run_simulator
+        Start programs and modules that the case of that run names; whatever run.json says, nothing is started without.
     """
     earlier = read_run(run)
     command = _command(earlier, run)
@@ -42,12 +45,15 @@ def rerun(run: Path, *, out: Path | None = None) -> int:
         raise InputError(out, "", "holds the results to compare with", "choose another --out, or none")
     with TemporaryDirectory() as scratch:
         folder = out or Path(scratch) / "results"
-        forms = TableForms(*(any(name.endswith(ending) for name in before) for ending in (".parquet", ".nc")))
+        kinds = (any(name.endswith(ending) for name in before) for ending in (".parquet", ".nc"))
+        forms = TableForms(*kinds, excel_safe=bool(earlier.options.get("excel_safe")))
         with command.respelling():
-            if earlier.typed:
-                command.execute({**earlier.options, "out": folder}, folder, forms)
-            else:
-                command.execute_in_si(earlier.in_si(), earlier.options, folder, forms)
+            typed = {**earlier.options, "out": folder} if earlier.typed else earlier.options
+            given = command.in_si(typed) if earlier.typed else earlier.in_si()
+            given |= {ALLOWED: run_simulator} if given.get(ALLOWED) else {}
+            if named := require_consent(command.options(**given).programs(), run_simulator, run):
+                print(named)
+            command.execute_in_si(given, typed, folder, forms)
         after = results_of(folder)
         different = differing(before, after, earlier.folder, folder)
     return _report_differences(before, after, different, out)

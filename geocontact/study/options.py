@@ -37,6 +37,9 @@ class CohortOptions(Options):
 
     Work
     ----
+    run_simulator
+        Start what the study's files name: an analysis or a model in a module of others, a program of a gap case.
+        Whatever the files say, nothing is started without.
     scheduler
         Address of a Dask scheduler, such as tcp://host:8786; local: this machine.
     workers
@@ -56,6 +59,7 @@ class CohortOptions(Options):
     events: Path | None = None
     cycle_side: Annotated[Side | None, Requires("events")] = None
     part: Annotated[CyclePart | None, Requires("events")] = None
+    run_simulator: bool = False
     scheduler: str = LOCAL
     workers: int | None = None
     memory: str | None = None

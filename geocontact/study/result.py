@@ -17,10 +17,10 @@ import shutil
 import time
 from collections.abc import Generator, Mapping
 from contextlib import ExitStack, chdir, closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -29,9 +29,11 @@ from jaxtyping import Float
 from geocontact.analyses.catalogue import job_named
 from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.collector import add_input, listener, note, reserve, results_place, say
+from geocontact.analyses.frame.consent import ALLOWED, foreign, require_consent
 from geocontact.analyses.frame.folder import Scratch, is_kept
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
+from geocontact.analyses.frame.options import declared
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
 from geocontact.analyses.frame.words import counted
@@ -268,7 +270,7 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     store = Store(out.resolve() / RESULTS)
     with ExitStack() as held:  # until the tables are written, unless something goes wrong before
         held.enter_context(store.begun())
-        plan = _plan(planned, store)
+        plan = _plan(planned, store, o)
         if any(one.known is not None and one.known.state == DONE for one in plan):
             is_kept(store.folder)
         became = _evaluated(planned, plan, store, o)
@@ -300,7 +302,7 @@ def _looked_at(
     done = [one for one in trials if one.outcome.state == DONE]
     if not done:
         raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
-    new = sum(one.known is None for one in plan)
+    new = len({one.address for one in trials if one.outcome.state == DONE} - {one.address for one in plan if one.known})
     note("trials", {"all": len(trials), "done": len(done)})
     all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
     say(f"{all_of_them} have results, {new} of them new")
@@ -347,22 +349,31 @@ def _report_surface(surface: SurfaceValues) -> None:
         say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
 
 
-def _plan(planned: PlannedStudy, store: Store) -> list[_Planned]:
-    job, digests, home = job_named(planned.file.analysis), Digests(), planned.file.home
-    found = []
-    for trial in planned.trials:
+def _plan(planned: PlannedStudy, store: Store, o: CohortOptions) -> list[_Planned]:
+    """Every trial with its address; InputError where a file names what the call does not allow to be started."""
+    analysis, home, file = planned.file.analysis, planned.file.home, planned.file.path
+    own = [f"the module of {analysis!r}"] if foreign(analysis) else []
+    require_consent(own, o.run_simulator, file)
+    job, digests = job_named(analysis), Digests()
+    allows = o.run_simulator and any(one.name == ALLOWED for one in declared(job.options))
+    found, named = [], own
+    for one in planned.trials:
+        trial = replace(one, options={**one.options, ALLOWED: True}) if allows else one
         try:
             with chdir(home):
                 options = options_of(job.options, trial.options)
                 options.refuse_missing_files()
+                named += options.programs()
             address = address_of(job.command, options, home, digests)
         except InputError as error:
             found.append(_Planned(trial, "", TrialOutcome(WRONG, str(error))))
             continue
-        there = store.holds(address, home, digests)
-        if not there:
-            store.forget(address)
-        found.append(_Planned(trial, address, TrialOutcome(DONE) if there else None))
+        found.append(_Planned(trial, address, TrialOutcome(DONE) if store.holds(address, home, digests) else None))
+    if line := require_consent(named, o.run_simulator, file):
+        listener().fail(line)
+    for each in found:
+        if each.known is None:
+            store.forget(each.address)
     return found
 
 
@@ -391,9 +402,9 @@ def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: Coh
 def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Generator[tuple[str, TrialOutcome]]:
     if not tasks:
         return
-    with workers_of(o) as client, listener().progress("trials", len(tasks)) as step:
+    with workers_of(o) as workers, listener().progress("trials", len(tasks)) as step:
         started, spent = time.perf_counter(), 0.0
-        for task, outcome in outcomes(client, tasks):
+        for task, outcome in outcomes(workers, tasks):
             if outcome.state == STOPPED:
                 line = f"{outcome.line}; finished trials stay: run it again when that is mended"
                 raise OSError(errno.EIO, line, str(task.store.folder))
@@ -402,13 +413,8 @@ def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Generator[tuple[str, 
             if outcome.state == DONE:
                 is_kept(task.store.folder)
             step()
-        note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": _count(client)})
+        note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": workers.threads()})
         note("one_by_one", {"seconds": round(spent, 3)})
-
-
-def _count(client: Any) -> int:
-    """Threads of all workers."""
-    return int(sum(client.nthreads().values()))
 
 
 cohort = Job("cohort", CohortOptions, read, run)

@@ -1,16 +1,21 @@
-"""Workers of a study, on this machine or an existing Dask cluster: trials go out, outcomes come as they end."""
+"""Workers of a study, on this machine or an existing Dask cluster: trials go out, outcomes come as they end.
+
+Whoever reaches the scheduler can run code as the user. Processes on this machine therefore speak TLS with certificates
+that are made for the run and held in memory: other users of the machine are refused.
+"""
 
 from __future__ import annotations
 
 import errno
 import logging
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from itertools import islice
 from multiprocessing import current_process
 from typing import Any
 
+from geocontact.analyses.frame.collector import listener
 from geocontact.analyses.frame.workers import cores
 from geocontact.data.errors import InputError
 from geocontact.study.options import CohortOptions
@@ -25,37 +30,93 @@ SETTINGS: dict[str, Any] = {
     "distributed.worker.multiprocessing-method": "spawn",  # no server between: `worker_setup` asks for its parent
     "distributed.worker.daemon": True,  # workers end with this process, however it ends
     "distributed.admin.system-monitor.gil.enabled": False,
+    # pages about the work are shown to nobody: they do not ask who asks
+    **{f"distributed.{each}.http.routes": [] for each in ("scheduler", "worker", "nanny")},
 }
 LOGGERS = tuple(f"distributed{part}" for part in ("", ".client", ".core", ".nanny", ".scheduler", ".worker"))
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 AHEAD = 2
 """Trials that are given out for each thread of the workers: one runs, one waits."""
 COUNTED = 1.0  # s; so often the workers are counted, for they come and go on a cluster
+FETCHED = 5.0  # s; as long may fetching an outcome take
+WORKERLESS = 60.0  # s; as long may a study be without any worker
+ALL_GONE = "no worker is left; finished trials stay: run it again"
 GONE = "the scheduler is gone; finished trials stay: run it again"
 
 
+class Workers:
+    """A `distributed.Client` of the workers, which are started anew where all of this machine were lost."""
+
+    def __init__(self, o: CohortOptions, distributed: Any) -> None:
+        self._o, self._distributed, self._held = o, distributed, ExitStack()
+        self.client: Any = None
+        self._seen, self._asked, self._threads = 0.0, -1e9, 0
+        self._joined = o.local
+        """Whether a worker has been there: those of a cluster may stand in its queue for hours."""
+
+    def start(self) -> None:
+        """Connect to the scheduler, or start processes of this machine."""
+        if self._o.local:
+            cluster = self._held.enter_context(_started(self._o, self._distributed))
+            found = self._distributed.Client(cluster, set_as_default=False, security=cluster.security)
+        else:
+            found = _existing(self._o, self._distributed)
+        self.client = self._held.enter_context(found)
+        self._seen = time.monotonic()
+
+    def end(self) -> None:
+        """End what was started."""
+        self._held.close()
+
+    def threads(self) -> int:
+        """How many threads the workers have; asked for no more often than once a second."""
+        if time.monotonic() - self._asked > COUNTED:
+            try:
+                self._threads, self._asked = sum(self.client.nthreads().values()), time.monotonic()
+            except OSError as error:
+                raise _lost(self.client) from error
+            if self._threads:
+                self._seen, self._joined = self._asked, True
+            elif not self._joined and time.monotonic() - self._seen > WORKERLESS:
+                listener().fail(f"no worker has come to {self._o.scheduler} yet; the study waits for one")
+                self._seen = float("inf")
+        return self._threads
+
+    @property
+    def gone(self) -> bool:
+        """Whether all workers have been lost for a while."""
+        return not self.threads() and self._joined and time.monotonic() - self._seen > WORKERLESS
+
+    def renew(self) -> None:
+        """New processes in place of those that are lost; OSError where the scheduler is not ours to start."""
+        if not self._o.local:
+            raise OSError(errno.ECHILD, ALL_GONE, self._o.scheduler)
+        self.end()
+        self.start()
+
+
 @contextmanager
-def workers_of(o: CohortOptions) -> Iterator[Any]:
-    """A `distributed.Client` of the workers; they are ended with the block where they were started for it."""
+def workers_of(o: CohortOptions) -> Iterator[Workers]:
+    """Workers of a study; they are ended with the block where they were started for it."""
     try:
         import dask
         import distributed as library
         import pyarrow as pa  # noqa: F401  each trial writes its tables with it: asked for before any is computed
+
+        if o.local:
+            import cryptography  # noqa: F401  certificates are made with it
     except ImportError as error:
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
     distributed: Any = library  # its annotations do not say how it is called
     for name in LOGGERS:  # what matters of it is told in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
+    found = Workers(o, distributed)
     with dask.config.set(SETTINGS):
-        if not o.local:
-            with _existing(o, distributed) as client:
-                yield client
-            return
-        with (
-            _started(o, distributed) as cluster,
-            distributed.Client(cluster, set_as_default=False) as client,
-        ):
-            yield client
+        try:
+            found.start()
+            yield found
+        finally:
+            found.end()
 
 
 def _started(o: CohortOptions, distributed: Any, left: int = STARTS - 1) -> Any:
@@ -72,6 +133,8 @@ def _started(o: CohortOptions, distributed: Any, left: int = STARTS - 1) -> Any:
             threads_per_worker=1,
             processes=True,
             memory_limit=o.memory or "auto",
+            protocol="tls://",
+            security=True,
             dashboard_address="127.0.0.1:0",
             env=ONE_THREAD,
             preload=["geocontact.study.worker_setup"],
@@ -93,31 +156,44 @@ def _existing(o: CohortOptions, distributed: Any) -> Any:
         raise InputError("", "`scheduler`", what, remedy) from error
 
 
-def outcomes(client: Any, tasks: Sequence[TrialTask]) -> Iterator[tuple[TrialTask, TrialOutcome]]:
-    """Every task with its outcome, in the order in which they end; OSError where the scheduler is lost.
+def outcomes(workers: Workers, tasks: Sequence[TrialTask]) -> Iterator[tuple[TrialTask, TrialOutcome]]:
+    """Every task with its outcome, in the order in which they end; OSError where scheduler or workers are lost.
 
     What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
-    when its worker ended is given out again.
+    when its worker ended is given out again. Dask does not restart a process that ends while it is starting: where no
+    worker is left for a minute, those of this machine are started anew.
     """
-    threads, waiting = _threads(client), iter(tasks)
+    waiting = iter(tasks)
     running: dict[Any, TrialTask] = {}
+    renewals = 0
 
     def give_out(some: Iterator[TrialTask]) -> None:
-        running.update({client.submit(run_trial, task, pure=False, retries=0): task for task in some})
+        running.update({workers.client.submit(run_trial, task, pure=False, retries=0): task for task in some})
 
-    give_out(islice(waiting, AHEAD * threads()))
+    give_out(islice(waiting, AHEAD * max(1, workers.threads())))
     while running:
-        for future in _ended(client, list(running)):
-            task = running.pop(future)
+        for future in _ended(workers.client, list(running)):
             try:
-                became = future.exception() or future.result()
+                became = future.exception(FETCHED) or future.result(FETCHED)
+            except TimeoutError:  # its worker ended before it handed over what it had: Dask runs it again
+                continue
             except OSError as error:  # of the connection: a trial that cannot write says so in its outcome
-                raise _lost(client) from error
+                raise _lost(workers.client) from error
+            task = running.pop(future)
             if _killed(became) and task.store.starts(task.run, task.address) < MOST_ENDED:
                 give_out(iter([task]))
             else:
+                renewals = 0
                 yield task, _outcome(became)
-        give_out(islice(waiting, max(0, AHEAD * threads() - len(running))))
+        if running and workers.gone:
+            renewals += 1
+            if renewals > STARTS:
+                raise OSError(errno.ECHILD, ALL_GONE, "processes of the study")
+            again = list(running.values())
+            running.clear()
+            workers.renew()
+            give_out(iter(again))
+        give_out(islice(waiting, max(0, AHEAD * max(1, workers.threads()) - len(running))))
 
 
 def _ended(client: Any, futures: list[Any]) -> list[Any]:
@@ -139,22 +215,6 @@ def _ended(client: Any, futures: list[Any]) -> list[Any]:
 
 def _lost(client: Any) -> OSError:
     return OSError(errno.ECONNABORTED, GONE, str(client.scheduler.address) if client.scheduler else "scheduler")
-
-
-def _threads(client: Any) -> Callable[[], int]:
-    """How many threads the workers have, at least one; asked for no more often than once a second."""
-    known, asked = 1, -1e9
-
-    def threads() -> int:
-        nonlocal known, asked
-        if time.monotonic() - asked > COUNTED:
-            try:
-                known, asked = max(1, sum(client.nthreads().values())), time.monotonic()
-            except OSError as error:
-                raise _lost(client) from error
-        return known
-
-    return threads
 
 
 def _killed(error: object) -> bool:

@@ -270,6 +270,8 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     one, two = (read_multibody(tmp_path / name / "scaled.osim") for name in ("scale", "rescaled"))
     for own, other in zip(one.bodies, two.bodies, strict=True):
         np.testing.assert_allclose(own.inertia, other.inertia, rtol=1e-9)
+    for setup in tmp_path.glob("*/setup_*.xml"):  # no name of a folder of the user's machine
+        assert "../leg.osim" in (text := setup.read_text(encoding="utf-8")) and str(tmp_path) not in text, setup
 
 
 def test_a_range_of_a_static_trial_takes_the_frames_that_opensim_takes(tmp_path: Path, opensim: Elsewhere) -> None:

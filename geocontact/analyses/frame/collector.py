@@ -16,6 +16,7 @@ start it in `contextvars.copy_context()`.
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -120,3 +121,18 @@ def listener() -> Listener:
 def results_place() -> Path | None:
     """Folder of the results; None where nothing is written."""
     return current().out
+
+
+def seen_from_results(file: Path) -> str:
+    """Path of an input as a file among the results names it: relative, so that no name of a user's folder is shared.
+
+    Absolute where no relative path leads there, as from one drive of Windows to another.
+    """
+    place = results_place()
+    whole = file.parent.resolve() / file.name  # OpenSim changes into the folder itself, behind symbolic links
+    if place is None:
+        return whole.as_posix()
+    try:
+        return os.path.relpath(whole, place.resolve()).replace(os.sep, "/")
+    except ValueError:
+        return whole.as_posix()

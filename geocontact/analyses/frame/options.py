@@ -205,6 +205,10 @@ class Options:
         for place, known, value in self._ranged():
             known.require(value, place)
 
+    def programs(self) -> tuple[str, ...]:
+        """Programs and modules of others, in words, that the input files name and this analysis would start."""
+        return ()
+
     def doubts(self) -> tuple[str, ...]:
         """What is unusual about the values, each one line."""
         found = [(place, known.doubt(value)) for place, known, value in self._ranged()]

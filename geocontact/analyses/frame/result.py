@@ -259,7 +259,13 @@ class Result(ABC):
         return sorted(file.relative_to(draft).as_posix() for file in draft.rglob("*") if file.is_file())
 
     def write(
-        self, folder: str | PathLike[str], *, parquet: bool = False, netcdf: bool = False, overwrite: bool = True
+        self,
+        folder: str | PathLike[str],
+        *,
+        parquet: bool = False,
+        netcdf: bool = False,
+        excel_safe: bool = False,
+        overwrite: bool = True,
     ) -> Path:
         """Write what the command writes into a folder, whole or not at all; the folder is made where it is missing.
 
@@ -273,12 +279,14 @@ class Result(ABC):
             Also write the tables as .parquet.
         netcdf
             Also write the tables over time as .nc; refused where there are none.
+        excel_safe
+            Write ' before texts in .csv that a spreadsheet program would run as a formula.
         overwrite
             Refuse a folder that holds results already when false.
         """
-        out = Path(folder)
+        out = self.record.out = Path(folder)
         with collecting(self.record), written_whole(out, overwrite) as draft:
-            self.put(draft, TableForms(parquet, netcdf))
+            self.put(draft, TableForms(parquet, netcdf, excel_safe))
         return out
 
     def page(self, file: str | PathLike[str]) -> Path:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 from dataclasses import dataclass
 from importlib.util import find_spec
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""A cell of a table that begins so is a formula to a spreadsheet program."""
 INSTALL = "pip install 'geocontact[parquet]'"
 
 
@@ -33,10 +37,13 @@ class TableForms:
         All tables as .parquet, with all their digits.
     netcdf
         Tables over time as .nc, with time and what else numbers their rows as coordinates.
+    excel_safe
+        Texts in .csv that a spreadsheet program would run as a formula are written with ' in front.
     """
 
     parquet: bool = False
     netcdf: bool = False
+    excel_safe: bool = False
 
     def __post_init__(self) -> None:
         """Refuse what cannot be written here, before anything is computed."""
@@ -45,7 +52,7 @@ class TableForms:
 
     def given(self) -> dict[str, object]:
         """What is asked for, for `run.json`."""
-        return {name: True for name in ("parquet", "netcdf") if getattr(self, name)}
+        return {name: True for name in ("parquet", "netcdf", "excel_safe") if getattr(self, name)}
 
     def write(self, tables: Mapping[str, pd.DataFrame], folder: Path, command: str) -> None:
         """Write the tables, each by its name, into the folder or the sub-folder that the name begins with.
@@ -67,10 +74,34 @@ class TableForms:
             for name, table in timed.items():
                 about = {"title": f"{name} of geocontact {command}", "source": f"geocontact {VERSION}"}
                 write_netcdf(table, _file(folder, name, "nc"), about)
+        if self.excel_safe:
+            for file in sorted(folder.rglob("*.csv")):
+                quote_formulas(file)
 
 
 AS_ALWAYS = TableForms()
 """None of them."""
+
+
+def quote_formulas(file: Path) -> None:
+    """Put ' before each text of a table that begins like a formula: =, +, -, @, a tabulator or the end of a line.
+
+    Numbers stay as they are. What a spreadsheet program runs: OWASP, "CSV injection".
+    """
+    rows = list(csv.reader(StringIO(file.read_text(encoding="utf-8"), newline="")))
+    safe = [[f"'{cell}" if cell.startswith(FORMULA) and not _is_number(cell) else cell for cell in row] for row in rows]
+    if safe != rows:
+        text = StringIO()
+        csv.writer(text, lineterminator="\n").writerows(safe)
+        file.write_text(text.getvalue(), encoding="utf-8", newline="")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
 
 
 def _file(folder: Path, name: str, ending: str) -> Path:

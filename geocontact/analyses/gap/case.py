@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.consent import foreign
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.io.cases.case_settings import SETTINGS, read_settings
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
 from geocontact.systems.catalogue import system_of
@@ -49,6 +51,17 @@ def read_case(folder: Path, run_simulator: bool) -> CaseWithModel:
     system = system_of(case)
     add_inputs(folder, case)
     return CaseWithModel(folder, case, system)
+
+
+def programs_of(folder: Path) -> tuple[str, ...]:
+    """The program or the module of others that a case names, in words; nothing where it cannot be read."""
+    file = folder / SETTINGS
+    try:
+        settings = read_settings(file)
+    except InputError:
+        return ()  # refused where it is read for use
+    found = [f"the program {settings.simulate!r} of {file}"] if settings.simulate else []
+    return (*found, *([f"the module of {settings.system!r} of {file}"] if foreign(settings.system) else []))
 
 
 SHARES = {"shoulder": ("level",)}

@@ -36,6 +36,12 @@ class DiagnoseOptions(Options):
     bare: bool = False
     run_simulator: bool = False
 
+    def programs(self) -> tuple[str, ...]:
+        """The program or the module that the case names."""
+        from geocontact.analyses.gap.case import programs_of
+
+        return programs_of(self.case)
+
 
 @dataclass(frozen=True)
 class ManyOptions(DiagnoseOptions):
@@ -68,3 +74,13 @@ class ManyOptions(DiagnoseOptions):
         """No process at all."""
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")
+
+    def programs(self) -> tuple[str, ...]:
+        """The same of all cases of a folder with `many`."""
+        from geocontact.analyses.gap.case import programs_of
+
+        try:
+            folders = sorted(each.parent for each in self.case.glob("*/case.toml")) if self.many else [self.case]
+        except OSError:
+            return ()
+        return tuple(line for folder in folders for line in programs_of(folder))

@@ -41,6 +41,12 @@ class DiscriminabilityOptions(Options):
     bare: bool = False
     run_simulator: bool = False
 
+    def programs(self) -> tuple[str, ...]:
+        """The program or the module that the case names."""
+        from geocontact.analyses.gap.case import programs_of
+
+        return programs_of(self.case)
+
     def refuse_impossible(self) -> None:
         """Nothing that is visible."""
         if not 0.0 < self.nats < math.inf:

@@ -56,6 +56,12 @@ class InjectOptions(Options):
     bare: bool = False
     run_simulator: bool = False
 
+    def programs(self) -> tuple[str, ...]:
+        """The program or the module that the case names."""
+        from geocontact.analyses.gap.case import programs_of
+
+        return programs_of(self.case)
+
     def refuse_impossible(self) -> None:
         """A gap that is none."""
         if not (math.isfinite(self.size) and self.size > 0.0):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.frame.collector import reserve, seen_from_results
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.panels import printed
@@ -63,7 +63,7 @@ def write_setup(folder: Path, o: IdOptions, given: Loaded) -> None:
     write_storage(folder / COORDINATES, given.recorded, names, values, title="Coordinates", degrees=True)
     write_id_setup(
         folder / "setup_id.xml",
-        str(o.model.absolute()),
+        seen_from_results(o.model),
         COORDINATES,
         _loads(folder, given),
         (float(given.time[0]), float(given.time[-1])),

@@ -22,7 +22,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import judge, listener, reserve, results, say
+from geocontact.analyses.frame.collector import judge, listener, reserve, results, say, seen_from_results
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -161,13 +161,13 @@ class IkResult(Result):
     def _write_setup(self, folder: Path) -> None:
         """With which OpenSim's own tool finds the same."""
         o, seen = self.options, self.seen
-        model = str(o.model.absolute())
+        model = seen_from_results(o.model)
         if o.marker_set is not None:  # OpenSim's tool takes the model's own markers only
             model = "model.osim"
             write_scaled_model(o.model, folder / model, seen.model, {})
         write_trc(folder / "seen.trc", seen.markers)
         span = float(self.poses.time[0]), float(self.poses.time[-1])
-        follow = "" if o.follow is None else str(o.follow.absolute())
+        follow = "" if o.follow is None else seen_from_results(o.follow)
         write_ik_setup(folder / "setup_ik.xml", model, "seen.trc", follow, seen.tasks, span, out="opensim_ik.mot")
 
     def _distances(self) -> pd.DataFrame:

@@ -23,7 +23,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import judge, reserve, results, say
+from geocontact.analyses.frame.collector import judge, reserve, results, say, seen_from_results
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -121,8 +121,8 @@ class ScaleResult(Result):
         write_trc(folder / "seen.trc", standing.recorded)
         write_scale_setup(
             folder / "setup_scale.xml",
-            str(o.model.absolute()),
-            "" if o.marker_set is None else str(o.marker_set.absolute()),
+            seen_from_results(o.model),
+            "" if o.marker_set is None else seen_from_results(o.marker_set),
             "seen.trc",
             self.factors,
             standing.tasks,
