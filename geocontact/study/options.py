@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import Requires
+from geocontact.analyses.frame.marks import Requires, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
@@ -46,6 +46,8 @@ class CohortOptions(Options):
         Processes on this machine; as many as there are cores by default.
     memory
         Memory that each process on this machine may take: 4GB; its share of the machine's by default.
+    limit
+        Longest that a trial may take: it is ended then, tried once more with twice that time, and set aside after that.
     """
 
     writes: ClassVar[str] = """
@@ -63,6 +65,7 @@ class CohortOptions(Options):
     scheduler: str = LOCAL
     workers: int | None = None
     memory: str | None = None
+    limit: Annotated[float | None, Typed("s", "finite", "600.0", "[s]", float)] = None
 
     @property
     def local(self) -> bool:
@@ -79,6 +82,8 @@ class CohortOptions(Options):
             if not self.local and getattr(self, name) is not None:
                 what = "has no effect with `scheduler`: its workers were started with theirs"
                 raise InputError("", f"`{name}`", what, "leave it out")
+        if self.limit is not None and self.limit < 1.0:
+            raise InputError("", "`limit`", f"{self.limit:g} s is less than a second", "give seconds: 600")
         if self.memory is not None and not SIZE.fullmatch(self.memory):
             raise InputError("", "`memory`", f"{self.memory!r} is not a size of memory", "write for example 4GB")
         if self.workers is not None and self.workers < 1:

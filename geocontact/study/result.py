@@ -382,7 +382,7 @@ def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: Coh
     run_id, sources = secrets.token_hex(8), source_digest.digest()
     missing = {one.address: one.trial for one in plan if one.known is None}
     tasks = [
-        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id)
+        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id, o.limit)
         for address, trial in missing.items()
     ]
     alike = len({frozenset(one.trial.options) for one in plan}) == 1

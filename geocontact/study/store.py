@@ -7,6 +7,7 @@ import os
 import platform
 import shutil
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -145,8 +146,15 @@ class Store:
                 raise
             shutil.rmtree(draft, ignore_errors=True)
 
+    def write_log(self, address: str, text: str) -> str:
+        """Keep the whole traceback of a trial that failed, until it is evaluated again; its file, from the study's."""
+        file = self.folder / f"{address}.log"
+        file.write_text(text, encoding="utf-8")
+        return f"{self.folder.name}/{file.name}"
+
     def forget(self, address: str) -> None:
         """Remove results that are out of date; what says that they are whole goes first."""
+        (self.folder / f"{address}.log").unlink(missing_ok=True)
         (self.place(address) / TOLD).unlink(missing_ok=True)
         shutil.rmtree(self.place(address), ignore_errors=True)
 
@@ -179,6 +187,13 @@ class Store:
             return (self.folder / WORK / f"{run}-{address}").stat().st_size
         except OSError:
             return 0
+
+    def since_start(self, run: str, address: str) -> float:
+        """Seconds since a worker last began a trial in a run and did not end it, 0 where none did."""
+        try:
+            return time.time() - (self.folder / WORK / f"{run}-{address}").stat().st_mtime
+        except OSError:
+            return 0.0
 
     def starting(self, run: str, address: str) -> Callable[[], None]:
         """Note that a worker begins a trial; the function takes the note away when it has ended it."""

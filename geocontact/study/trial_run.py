@@ -7,10 +7,11 @@ import json
 import os
 import secrets
 import shutil
+import signal
 import threading
 import traceback
-from collections.abc import Mapping
-from contextlib import chdir
+from collections.abc import Iterator, Mapping
+from contextlib import chdir, contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -27,6 +28,8 @@ from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store
 
 DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set aside", "stopped"
 """What becomes of a trial; STOPPED concerns all: nothing can be written, or the worker has other sources."""
+TRIES_IN_TIME = 2
+"""So often a trial with a limit of time is tried, the last time for as many times the limit."""
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
 _one_at_a_time = threading.Lock()  # the working folder and what catches warnings are those of the whole process
 _sources = cache(source_digest.digest)
@@ -52,6 +55,8 @@ class TrialTask:
         Digest of the package's sources, as where the study was started.
     run
         Marks one run of the study.
+    limit
+        Longest that the trial may take [s], twice that at the second try; None without a limit.
     """
 
     analysis: str
@@ -61,6 +66,14 @@ class TrialTask:
     address: str
     sources: str
     run: str
+    limit: float | None = None
+
+    def given_up(self) -> str:
+        """Why the trial is not tried again, in a line; "" where it is."""
+        starts, taken = self.store.starts(self.run, self.address), self.store.since_start(self.run, self.address)
+        if self.limit is not None and starts >= TRIES_IN_TIME and taken >= self.limit * TRIES_IN_TIME:
+            return f"took more than {self.limit:g} s, and then more than {self.limit * TRIES_IN_TIME:g} s"
+        return f"its worker was killed {MOST_ENDED} times: out of memory, or a crash" if starts >= MOST_ENDED else ""
 
 
 @dataclass(frozen=True)
@@ -79,16 +92,42 @@ def run_trial(task: TrialTask) -> TrialOutcome:
     started = time.perf_counter()
     if task.sources != _sources():
         return TrialOutcome(STOPPED, "a worker has other sources of geocontact; install the same version there")
-    if task.store.starts(task.run, task.address) >= MOST_ENDED:
-        return TrialOutcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
+    if why := task.given_up():
+        return TrialOutcome(SET_ASIDE, why)
     with _one_at_a_time:
         try:
+            tries = task.store.starts(task.run, task.address)
             ended = task.store.starting(task.run, task.address)
-            outcome = _outcome(task)
+            with ended_after(None if task.limit is None else task.limit * (1 if tries == 0 else TRIES_IN_TIME)):
+                outcome = _outcome(task)
             ended()
         except OSError as error:
             return TrialOutcome(STOPPED, str(error.strerror or error))
     return TrialOutcome(outcome.state, outcome.line, time.perf_counter() - started)
+
+
+@contextmanager
+def ended_after(seconds: float | None) -> Iterator[None]:
+    """End this process where the block takes longer, also in compiled code that keeps the interpreter to itself.
+
+    By SIGALRM, which ends a process that does not handle it; elsewhere by a thread, which such code can hold up.
+    """
+    if seconds is None:
+        yield
+    elif hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+    else:
+        timer = threading.Timer(seconds, os._exit, (1,))
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
 
 
 def _outcome(task: TrialTask) -> TrialOutcome:
@@ -106,7 +145,8 @@ def _outcome(task: TrialTask) -> TrialOutcome:
         if isinstance(error, OSError) and error.errno in NO_ROOM:
             raise
         last = traceback.extract_tb(error.__traceback__)[-1]
-        line = f"{type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno})"
+        log = task.store.write_log(task.address, traceback.format_exc())
+        line = f"{type(error).__name__}: {error} ({Path(last.filename).name} {last.lineno}; all of it: {log})"
         return TrialOutcome(FAILED, " ".join(line.split()))
     finally:
         shutil.rmtree(draft, ignore_errors=True)

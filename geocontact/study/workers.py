@@ -19,7 +19,6 @@ from geocontact.analyses.frame.collector import listener
 from geocontact.analyses.frame.workers import cores
 from geocontact.data.errors import InputError
 from geocontact.study.options import CohortOptions
-from geocontact.study.store import MOST_ENDED
 from geocontact.study.trial_run import FAILED, SET_ASIDE, TrialOutcome, TrialTask, run_trial
 
 INSTALL = "pip install 'geocontact[cohort]'"
@@ -180,11 +179,11 @@ def outcomes(workers: Workers, tasks: Sequence[TrialTask]) -> Iterator[tuple[Tri
             except OSError as error:  # of the connection: a trial that cannot write says so in its outcome
                 raise _lost(workers.client) from error
             task = running.pop(future)
-            if _killed(became) and task.store.starts(task.run, task.address) < MOST_ENDED:
+            if _killed(became) and not task.given_up():
                 give_out(iter([task]))
             else:
                 renewals = 0
-                yield task, _outcome(became)
+                yield task, _outcome(became, task)
         if running and workers.gone:
             renewals += 1
             if renewals > STARTS:
@@ -221,9 +220,9 @@ def _killed(error: object) -> bool:
     return type(error).__name__ == "KilledWorker"
 
 
-def _outcome(became: TrialOutcome | BaseException) -> TrialOutcome:
+def _outcome(became: TrialOutcome | BaseException, task: TrialTask) -> TrialOutcome:
     if isinstance(became, TrialOutcome):
         return became
     if _killed(became):
-        return TrialOutcome(SET_ASIDE, f"its worker was killed {MOST_ENDED} times: out of memory, or a crash")
+        return TrialOutcome(SET_ASIDE, task.given_up())
     return TrialOutcome(FAILED, " ".join(f"{type(became).__name__}: {became}".split()))

@@ -22,7 +22,7 @@ import geocontact as gc
 from geocontact.study.curves import StudyCurves
 from geocontact.study.result import CohortResult
 from geocontact.study.show import study_curves, study_page
-from geocontact.study.store import LOCK, sole_writer
+from geocontact.study.store import LOCK, Store, sole_writer
 from geocontact.study.tables import ensemble_table, means_by_condition
 from geocontact.view.page.content import Curves, Table
 from tests.cli.calls import Call, call
@@ -102,6 +102,16 @@ def test_a_trial_that_cannot_be_evaluated_is_one_line(
     assert list(done.table("trials.csv")["state"]) == ["done", state, "done", "done"]
     assert set(pd.read_parquet(out / "tables" / "sine.parquet")["subject"]) == {"A", "C", "D"}
     assert told(out)["results"]["trials"] == {"all": 4, "done": 3}
+
+
+def test_a_trial_that_failed_leaves_its_whole_traceback_until_it_is_evaluated(tmp_path: Path, scheduler: str) -> None:
+    file, out = study(tmp_path, {"A": "1", "B": "2 fails"}), tmp_path / "out"
+    line = cohort(file, out, scheduler).complaints[0]
+    log = out / (re.search(r"all of it: (\S+)\)", line) or [""])[1]
+    text = log.read_text(encoding="utf-8")
+    assert text.startswith("Traceback") and 'raise ZeroDivisionError("it fails")' in text
+    Store(out / "results").forget(log.stem)
+    assert not log.exists()
 
 
 def test_no_room_ends_the_study_and_loses_nothing(tmp_path: Path, scheduler: str) -> None:
