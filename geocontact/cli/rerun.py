@@ -45,8 +45,8 @@ def rerun(run: Path, *, out: Path | None = None, run_simulator: bool = False) ->
         raise InputError(out, "", "holds the results to compare with", "choose another --out, or none")
     with TemporaryDirectory() as scratch:
         folder = out or Path(scratch) / "results"
-        kinds = (any(name.endswith(ending) for name in before) for ending in (".parquet", ".nc"))
-        forms = TableForms(*kinds, excel_safe=bool(earlier.options.get("excel_safe")))
+        parquet, netcdf = (any(name.endswith(ending) for name in before) for ending in (".parquet", ".nc"))
+        forms = TableForms(parquet, netcdf, bool(earlier.options.get("excel_safe")))
         with command.respelling():
             typed = {**earlier.options, "out": folder} if earlier.typed else earlier.options
             given = command.in_si(typed) if earlier.typed else earlier.in_si()
