@@ -5,6 +5,7 @@ What is read is checked before anything is computed, so that only reading runs h
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -75,6 +76,7 @@ from tests.trial_checks.damage import (
     times,
     z_up,
 )
+from tests.trial_checks.meant import MEANT
 
 WALK, OVERHEAD, STANDING_UP = MESHES / "gait_P1_medium_1", MESHES / "overhead_P1T1S100", MESHES / "standing_up"
 SECOND = MESHES / "gait_P1_low_1"
@@ -516,9 +518,15 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> dict[str, set[str]]:
 
 @pytest.mark.parametrize(("command", "name"), EACH)
 def test_no_wrong_input_is_silent(command: str, name: str, tmp_path: Path, clean: dict[str, set[str]]) -> None:
+    """What is said names the cause that was made; an unrelated warning does not count."""
     run, _, damages = COMMANDS[command]
     folder = trial_of(command, tmp_path)
-    assert run(folder, **damages[name](folder)) - clean[command]
+    said = run(folder, **damages[name](folder)) - clean[command]
+    assert [line for line in said if re.search(MEANT[name], line)], said
+
+
+def test_every_pattern_is_of_a_damage() -> None:
+    assert set(MEANT) == {name for _, name in EACH}
 
 
 @pytest.mark.parametrize("command", COMMANDS)
