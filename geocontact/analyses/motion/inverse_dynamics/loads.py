@@ -183,7 +183,8 @@ def warn_of_other_feet(
     for load in misplaced:
         reserve(
             f"the load on {load.body} acts {load.distance:.2f} m from it and {load.nearest_distance:.2f} m from "
-            f"{load.nearest} (median over its frames): are the loads of the two exchanged?"
+            f"{load.nearest} (median over its frames): are the loads of the two exchanged?",
+            cause=True,
         )
     return misplaced
 
