@@ -42,7 +42,7 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 |---|---|---|---|
 """
 BATTERY = """
-Over the commands, the shipped trials are damaged in {count} ways, each of which is refused or adds a warning:
+Over the commands, the shipped trials are damaged in {count} ways, each of which is refused, or warned of with its cause:
 {counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and {meshes}
 sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set two markers
 of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for
@@ -62,9 +62,9 @@ Checks on the way in and out took {median:.1%} of a command's CPU time in the me
 ## On the way out: a result against its data
 
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
-`doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1, no parameter is
-called known, and ends of intervals stay empty. A doubt is a warning. It is in {judged}; studies and `gap diagnose
---many` list it for every trial.
+`doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1 (2 where a check
+above warned of more than a jump), no parameter is called known, ends of intervals and standard errors stay empty. A
+doubt is a warning. It is in {judged}; studies and `gap diagnose --many` list it for every trial.
 
 | check | doubtful | contradicts |
 |---|---|---|
@@ -81,7 +81,7 @@ RESULTS = {
 }
 """From where each test of fit doubts and contradicts; what it compares is the first line of its docstring."""
 OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advises | rms > {1e3 * FAR:g} mm |
-| residual force of `id` | beyond Hicks et al. | > 1/3 of the weight, {fit.MUCH:.0%} of the time |
+| residual force, moment of `id` | beyond Hicks et al. | > 1/3 of weight, weight × height, {fit.MUCH:.0%} of the time |
 | load of `id` with the foot under it | | nearer to the other foot |
 | joint of one segment with that of the other | rms > {2e3 * SLIDING:g} mm | rms > {1e3 * FAR:g} mm |
 | cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |

@@ -66,7 +66,7 @@ from geocontact.study.tables import (
     outlier_table,
     value_table,
 )
-from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
+from geocontact.study.trial_run import DONE, FAILED, STOPPED, WRONG, TrialOutcome, TrialTask
 from geocontact.study.trials import CohortTrial, trials_of
 from geocontact.study.workers import outcomes, workers_of
 from geocontact.view.surfaces.points_vtp import write_points_vtp
@@ -152,10 +152,14 @@ class CohortResult(Result):
 
     @property
     def exit_code(self) -> int:
-        """1 where a trial failed or contradicts its data, 2 where none did but one had a mistake in its input."""
+        """1 where a trial failed or contradicts its data, 2 where none did but one had a mistake in its input.
+
+        A trial whose inputs contradict each other beside its result has such a mistake.
+        """
         states = {one.outcome.state for one in self.trials}
-        if any(self.store.told(one.address).get("fit") == CONTRADICTS for one in self.done):
-            return FAILED_CODE
+        for told in (self.store.told(one.address) for one in self.done):
+            if told.get("fit") == CONTRADICTS:
+                states.add(WRONG if told.get("inputs contradict") else FAILED)
         return 0 if states == {DONE} else WRONG_CODE if states <= {DONE, WRONG} else FAILED_CODE
 
     @property

@@ -166,6 +166,7 @@ def _evaluate(task: TrialTask, out: Path) -> None:
         "warnings": list(result.warnings),
         "accepted": result.accepted,
         "fit": result.fit_outcome or "",
+        "inputs contradict": bool(result.record.causes),
     }
     draft = out / f"{TOLD}.part"
     draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

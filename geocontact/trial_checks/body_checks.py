@@ -237,8 +237,11 @@ def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
         yield Contradiction(
             on.source, names, what, "is a plate missing, of a chair or a foot, or the mass another one?"
         )
-    lag, there = lag_of(expected, force, step, LATEST)
-    _, now = lag_of(expected, force, step, 0.0)
+    whole = slice(_half(step), -_half(step))  # beyond it nothing is known of how the person went on
+    if len(time[whole]) < FEWEST:
+        return
+    lag, there = lag_of(expected[whole], force[whole], step, LATEST)
+    _, now = lag_of(expected[whole], force[whole], step, 0.0)
     if abs(lag) >= LATE and there >= ALIKE and there - now >= CLEARER:
         when = "before" if lag > 0.0 else "after"
         what = f"the force of the plates is {abs(lag):.2f} s {when} weight and acceleration of the body"
@@ -294,10 +297,15 @@ def differentiated(trial: TrialInputs) -> Iterator[Contradiction]:
 
 
 def _smooth(values: Float[np.ndarray, " t"], step: float) -> Float[np.ndarray, " t"]:
-    """Mean over `SMOOTH` with the weights of a Hann window; the ends are repeated."""
-    half = max(round(0.5 * SMOOTH / step), 1)
+    """Mean over `SMOOTH` with the weights of a Hann window; beyond the ends what moves there goes on at its rate."""
+    half = _half(step)
     weights = np.hanning(2 * half + 3)[1:-1]
-    return np.convolve(np.pad(values, half, mode="edge"), weights / weights.sum(), "valid")
+    return np.convolve(np.pad(values, half, mode="reflect", reflect_type="odd"), weights / weights.sum(), "valid")
+
+
+def _half(step: float) -> int:
+    """Samples of half of the window."""
+    return max(round(0.5 * SMOOTH / step), 1)
 
 
 BODY_CHECKS = (

@@ -231,6 +231,7 @@ MARKER_CHECKS = (
         f"{1e3 * STEP:.0f} mm from one frame to the next, or {ACCELERATION:.0f} m/s² where frames are far apart; "
         "six people who walk have 40 to 190 m/s²",
         jumps,
+        of_all=False,
     ),
     Check(
         "upright",

@@ -192,9 +192,12 @@ class Check:
         From which difference on it speaks, and where that limit comes from.
     find
         All contradictions in a trial; nothing where an input that it needs is not there.
+    of_all
+        Whether it is about all samples, so that a result which contradicts its data may come from it; else about a few.
     """
 
     name: str
     compares: str
     limit: str
     find: Callable[[TrialInputs], Iterator[Contradiction]]
+    of_all: bool = True

@@ -38,6 +38,8 @@ from tests.unchecked import unchecked
 Run = Callable[[Path], Result]
 SURE = re.compile(r"\b(known|certified|best|explained|explains|standard error|95 %)", re.IGNORECASE)
 """What is not said of a result that contradicts its data."""
+ERROR = re.compile(r"standard error|sd_[fm][xyz] ")
+"""Names of columns with standard errors."""
 
 
 @dataclass(frozen=True)
@@ -231,6 +233,10 @@ def test_a_wrong_input_contradicts_and_nothing_is_said_to_be_sure(name: str, tmp
     page = _headline(result.page(tmp_path / REPORT))
     assert page.startswith("The result contradicts its data")
     assert not SURE.search(page.replace("none of the known effects explains it", "")), page
+    whole = result.tables()
+    errors = [table[column] for table in whole.values() for column in table if ERROR.match(str(column))]
+    assert all(column.isna().all() for column in errors)
+    assert not re.search(r"\d ± \d|largest standard error", (tmp_path / REPORT).read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -28,6 +28,7 @@ from geocontact.trial_checks.landmarks import body_points
 from geocontact.trial_checks.mesh_checks import SurfacePair, surface_contradictions
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 from geocontact.trial_checks.table import contradictions
+from tests.trial_checks.as_c3d import LABORATORY, as_c3d, laboratory, plates_as_c3d
 from tests.trial_checks.damage import Damage, alike, columns_changed, late, said, swapped, text_changed, times
 
 Z_UP = Rotation.from_matrix([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -207,6 +208,52 @@ def test_no_damage_of_a_real_trial_is_silent(
     for file in WALKED:
         shutil.copy(data_dir / "opensim_walk" / file, tmp_path / file)
     assert inverse_dynamics(tmp_path, **DAMAGED[name](tmp_path)) - walked["id"]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("c3d", [False, True])
+def test_a_turned_recording_gives_the_same_results(
+    c3d: bool, data_dir: Path, tmp_path: Path, walked: dict[str, set[str]]
+) -> None:
+    """The walk along -x with z up, and in .c3d files with z up: `axes` gives forces and angles as they were."""
+    import geocontact as gc
+
+    for file in WALKED:
+        shutil.copy(data_dir / "opensim_walk" / file, tmp_path / file)
+    if c3d:
+        for file in (TRC, STILL):
+            as_c3d(tmp_path, file)
+        columns_changed(GRF, lambda c: c.update(time=np.arange(len(c["time"])) / 600.0))(
+            tmp_path
+        )  # in full, not 0.1 ms
+        plates_as_c3d(tmp_path, GRF, ("ground_force", "1_ground_force"))
+    else:
+        laboratory(tmp_path, (TRC, STILL, GRF))
+    was, axes = data_dir / "opensim_walk", LABORATORY if c3d else "-x,z,y"
+    end = ".c3d" if c3d else ".trc"
+    names: dict[str, Any] = {"first": "R.Thigh.Upper,R.Thigh.Front,R.Thigh.Rear", "axis": True}
+    names |= {"second": "R.Shank.Upper,R.Shank.Front,R.Shank.Rear"}
+    loaded: dict[str, Any] = {"model": tmp_path / OSIM, "time": (0.6, 1.0)}
+    plates = {"plates": (tmp_path if c3d else was) / GRF, "plate": ("ground_force=calcn_r", "1_ground_force=calcn_l")}
+    turned = {"plates": tmp_path / (GRF.replace(".mot", ".c3d") if c3d else GRF), "axes": axes}
+    turned["plate"] = ("1=calcn_r", "2=calcn_l") if c3d else plates["plate"]
+    pairs = [
+        (
+            gc.inverse_kinematics(was / TRC, model=was / OSIM, time=(0.6, 1.0)),
+            gc.inverse_kinematics((tmp_path / TRC).with_suffix(end), model=was / OSIM, time=(0.6, 1.0), axes=axes),
+        ),
+        (
+            gc.functional_joint(was / TRC, static=was / STILL, **names),
+            gc.functional_joint(
+                (tmp_path / TRC).with_suffix(end), static=(tmp_path / STILL).with_suffix(end), axes=axes, **names
+            ),
+        ),
+        (gc.inverse_dynamics(was / IK, **plates, **loaded), gc.inverse_dynamics(was / IK, **turned, **loaded)),
+    ]
+    for expected, found in pairs:
+        for name, table in expected.tables().items():
+            values, known = (each.select_dtypes("number").to_numpy(float) for each in (found.table(name), table))
+            np.testing.assert_allclose(values, known, rtol=1e-3, atol=2e-3, err_msg=name)
 
 
 @pytest.mark.filterwarnings("ignore")

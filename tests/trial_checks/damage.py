@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.analyses.frame.collector import collecting
 from geocontact.analyses.frame.record import Record
@@ -19,17 +20,42 @@ from geocontact.io.mocap.trc import read_trc, write_trc
 Damage = Callable[[Path], dict[str, Any]]
 
 
-def said(read: Callable[[Any], object], options: Callable[..., Any], *first: Path, **given: Any) -> set[str]:
+class Said(set[str]):
+    """Lines, and what was read; None where it was refused."""
+
+    made: object = None
+
+
+def said(read: Callable[[Any], object], options: Callable[..., Any], *first: Path, **given: Any) -> Said:
     """Warnings of reading with these options, or the refusal; without folders and numbers, so that two runs compare.
 
     A warning that a trial has as it is and that only changes a number is no word of what is wrong.
     """
     with collecting(Record("test", {})) as record:
         try:
-            read(options(*first, **given))
+            made = read(options(*first, **given))
         except InputError as error:
-            return {f"refused: {error}"}
-    return {re.sub(r"[-−]?\d[\d.e+]*", "#", re.sub(r"\S*/", "", line)) for line in record.warnings}
+            return Said({f"refused: {error}"})
+    lines = Said(re.sub(r"[-−]?\d[\d.e+]*", "#", re.sub(r"\S*/", "", line)) for line in record.warnings)
+    lines.made = made
+    return lines
+
+
+def numbers(made: object) -> list[float]:
+    """Every number in something that was read, in its order; of objects those of their fields."""
+    if isinstance(made, (bool, str, bytes, Path)) or made is None or callable(made):
+        return []
+    if isinstance(made, (int, float, np.number)):
+        return [float(made)]
+    if isinstance(made, np.ndarray):
+        return [float(x) for x in made.ravel()] if made.dtype.kind in "fi" else []
+    if isinstance(made, (Rotation, RigidTransform)):
+        return numbers(made.as_matrix())
+    if isinstance(made, Mapping):
+        return [x for each in made.values() for x in numbers(each)]
+    if isinstance(made, Iterable):
+        return [x for each in made for x in numbers(each)]
+    return [x for name in getattr(made, "__dataclass_fields__", ()) for x in numbers(getattr(made, name))]
 
 
 def markers_changed(file: str, change: Callable[[MarkerTrajectories, np.ndarray], np.ndarray]) -> Damage:

@@ -158,6 +158,21 @@ def aside(by: float) -> Change:
     return damage
 
 
+def cut(first: float, last: float) -> Change:
+    """Only a part of who stands up, with rates: the recording begins or ends while the person moves."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = rated(1.0)(risen())
+        assert trial.moved is not None and trial.moved.rates is not None
+        kept, on = (first <= TIME) & (last >= TIME), trial.plates[0]
+        plate, wrench = on.plate, on.plate.wrench
+        wrench = replace(wrench, force=wrench.force[kept], moment=wrench.moment[kept], origin=wrench.origin[kept])
+        moved = replace(trial.moved, time=TIME[kept], values=trial.moved.values[kept], rates=trial.moved.rates[kept])
+        return replace(trial, moved=moved, plates=(replace(on, plate=replace(plate, time=TIME[kept], wrench=wrench)),))
+
+    return damage
+
+
 DAMAGED: dict[str, tuple[str, Change]] = {
     "radians as degrees": ("angles in degrees", angled(np.radians)),
     "sign of all angles": ("range of a coordinate", angled(np.negative)),
@@ -190,6 +205,8 @@ NEARLY: dict[str, Change] = {
     "rates as they are": rated(1.0),
     "rates a fifth too large": rated(1.2),
     "0.03 s late under who rises": later(0.03),
+    "who rises, begun on the way": cut(0.9, 2.0),
+    "who rises, ended on the way": cut(0.0, 0.9),
     "short legs": lambda _: risen(person(0.9 * THIGH, 0.9 * SHANK)),
     "thin": stood(mass=50.0),
     "stout": stood(mass=140.0),

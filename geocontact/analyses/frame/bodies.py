@@ -228,7 +228,7 @@ def check_surfaces(
 ) -> None:
     """A warning for whatever two surfaces contradict each other in; arguments as of `SurfacePair`."""
     for one in surface_contradictions(SurfacePair(moving, fixed, roles, bodies, layered)):
-        reserve(str(one))
+        reserve(str(one), cause=True)
 
 
 def chosen_faces(

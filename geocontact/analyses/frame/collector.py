@@ -51,13 +51,17 @@ def current() -> Record:
     return OPEN.get() or Record("", {})
 
 
-def reserve(line: str) -> None:
-    """Keep a warning of the result, once; an `InputWarning` where no collector is open."""
+def reserve(line: str, *, cause: bool = False) -> None:
+    """Keep a warning of the result, once; an `InputWarning` where no collector is open.
+
+    `cause` is of inputs that contradict each other: a result that contradicts its data has its cause in them, and the
+    command ends with 2.
+    """
     record = OPEN.get()
     if record is None:
         warnings.warn(line, InputWarning, stacklevel=2)
     else:
-        record.warn(line)
+        record.warn(line, cause=cause)
 
 
 def say(text: str) -> None:
@@ -68,7 +72,7 @@ def say(text: str) -> None:
 def judge(fit: GoodnessOfFit, *, warned: bool = False) -> None:
     """Keep whether the result agrees with its data: in `run.json`, and a doubt as a warning, unless it was one already.
 
-    What contradicts the data is the first of all sentences, and the command ends with 1.
+    What contradicts the data is the first of all sentences, and the command ends with 1, or with 2 (`reserve`).
     """
     current().judge(fit)
     if fit.outcome == "doubtful" and not warned:

@@ -16,7 +16,7 @@ from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.folder import RUN
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.warning_kinds import merged
-from geocontact.analyses.frame.withheld import withheld_section
+from geocontact.analyses.frame.withheld import is_end, withheld_section
 from geocontact.analyses.frame.words import MOST, headline
 from geocontact.data.version import VERSION
 from geocontact.view.curves.style import save
@@ -151,15 +151,17 @@ def finished(page: Page, record: Record, folder: str, reservations: Sequence[str
     for place, table in places:
         at = next((k for k, section in enumerate(sections) if section is place), len(sections))
         sections[at : at + 1] = [table]
+    facts = list(page.facts)
     if record.judged:
         sections = [withheld_section(each) for each in sections]
+        facts = [fact for fact in facts if not is_end(fact[0])]
     first = headline([record.judged]) if record.judged else ()
     told = tuple(line for line in page.headline if line not in first)
     every = [*reservations, *page.reservations]
     kinds = merged(every)
     if len(kinds) < len(every):
         sections.append(Table("All warnings", ("warning",), [(line,) for line in every], folded=True))
-    return replace(page, sections=tuple(sections), reservations=tuple(kinds), headline=(*first, *told))
+    return replace(page, facts=facts, sections=tuple(sections), reservations=tuple(kinds), headline=(*first, *told))
 
 
 def write_finished(page: Page | Thinned, file: Path, record: Record, folder: str, reservations: Sequence[str]) -> None:

@@ -71,6 +71,8 @@ class Record:
         Files that were read, with their SHA-256.
     warnings
         Reservations, each one line.
+    causes
+        Those of them by which inputs contradict each other.
     results
         Summary by name.
     tables
@@ -96,6 +98,7 @@ class Record:
     in_si: Mapping[str, object] = field(default_factory=dict)
     inputs: list[dict[str, object]] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    causes: list[str] = field(default_factory=list)
     results: dict[str, object] = field(default_factory=dict)
     tables: dict[str, Mapping[str, object]] = field(default_factory=dict)
     sentences: list[str] = field(default_factory=list)
@@ -120,9 +123,11 @@ class Record:
         known = facts.pop("sha256", None) or digest(Path(path))
         self.inputs.append({"role": self.spell(role), "file": fspath(path), "sha256": known, **facts})
 
-    def warn(self, line: str) -> None:
-        """Keep a reservation, once."""
+    def warn(self, line: str, *, cause: bool = False) -> None:
+        """Keep a reservation, once; `cause` where inputs contradict each other."""
         line = self.spell(" ".join(line.split()))
+        if cause and line not in self.causes:
+            self.causes.append(line)
         if line not in self.warnings:
             self.warnings.append(line)
             if not self._holds:
@@ -151,7 +156,10 @@ class Record:
     def judged(self) -> str:
         """What contradicts the data, in a sentence; empty where nothing does."""
         known = self.fit
-        return self.spell(known.words) if known is not None and known.outcome == "contradicts" else ""
+        if known is None or known.outcome != "contradicts":
+            return ""
+        cause = f"; its inputs contradict each other: {self.causes[0]}" if self.causes else ""
+        return f"{self.spell(known.words)}{cause}"
 
     def say(self, text: str) -> None:
         """Keep a sentence of what was found."""
@@ -190,7 +198,7 @@ class Record:
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
             "inputs": self.inputs,
             "results": results,
-            **({} if self.fit is None else _fit_words(self.fit)),
+            **({} if self.fit is None else _fit_words(self.fit, self.causes)),
             "tables": {name: _plain(told) for name, told in self.tables.items()},
             "warnings": self.warnings,
             "versions": self.versions(),
@@ -204,9 +212,10 @@ class Record:
             (folder / RUN).write_text(text + "\n", encoding="utf-8")
 
 
-def _fit_words(fit: GoodnessOfFit) -> dict[str, object]:
+def _fit_words(fit: GoodnessOfFit, causes: list[str]) -> dict[str, object]:
     doubts = [{"what": doubt.what, "contradicts": doubt.contradicts} for doubt in fit.doubts]
-    return {"fit": {"outcome": fit.outcome, "doubts": doubts, "tested": list(fit.tested)}}
+    found = {"inputs contradict": causes} if causes and fit.outcome == "contradicts" else {}
+    return {"fit": {"outcome": fit.outcome, "doubts": doubts, "tested": list(fit.tested), **found}}
 
 
 def _plain(value: object) -> object:

@@ -132,7 +132,9 @@ class Result(ABC):
 
     @property
     def exit_code(self) -> int:
-        """What the command ends with."""
+        """What the command ends with: 2 where it contradicts its data, and its inputs each other."""
+        if not self.fits and self.record.causes:
+            return 2
         return 0 if self.accepted and self.fits else 1
 
     @property

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from geocontact.view.curves.declared import Curves, CurveSheet
-from geocontact.view.page.content import Intervals, Section, Table
+from geocontact.view.page.content import Intervals, Readout, Section, Table
 
 CONTRADICTED = "contradicts the data"
 """Verdict on a number of a model that its data contradict."""
@@ -26,8 +26,12 @@ VERDICT = "verdict"
 END = re.compile(
     r"(?<![a-z])(lower|upper)(?![a-z])|^profile parts$|(?<![a-z])9\d ?%|^interval$|^profile_likelihood$"
     r"|(?<![a-z])ci9\d(?![0-9])|^(block|wild)_bootstrap$|^(parts|open)$"
+    r"|standard[ _]errors?|^sd_[a-z]|(?<!noise)_sd_[A-Za-z]"
 )
-"""Names of columns and keys that hold ends of intervals."""
+"""Names of columns and keys that hold ends of intervals, or the standard error of a result: `sd_fx`, `point_sd_mm`.
+`sd` and `force_sd [N]` are spreads of what was recorded, over trials or cycles, and hold without a model."""
+PLUS_MINUS = re.compile(r"(?<=\d) ± \S+")
+"""A standard error behind a number."""
 BEFOREHAND = re.compile(r"^(prior|bound)")
 """Names of those that were there before the fit."""
 
@@ -41,6 +45,8 @@ def is_end(name: str) -> bool:
 
     >>> [is_end(name) for name in ("E_star_lower [Pa]", "bootstrap upper", "prior lower", "slower", "value")]
     [True, True, False, False, False]
+    >>> [is_end(name) for name in ("standard error", "sd_fx [N]", "point_sd_mm", "force_sd [N]", "noise_sd_N_m", "sd")]
+    [True, True, True, False, False, False]
     """
     return bool(END.search(name)) and not BEFOREHAND.search(name)
 
@@ -102,6 +108,13 @@ def withheld_section(section: Section) -> Section:
         return replace(section, intervals=rows)
     if isinstance(section, Table) and not section.folded:
         ends = [is_end(name) for name in section.header]
-        rows_of = [["" if end else cell for cell, end in zip(row, ends, strict=True)] for row in section.rows]
+        rows_of = [["" if end else _bare(cell) for cell, end in zip(row, ends, strict=True)] for row in section.rows]
         return replace(section, rows=rows_of)
+    if isinstance(section, Readout):
+        return replace(section, rows=[replace(row, texts=[_bare(each) for each in row.texts]) for row in section.rows])
     return section
+
+
+def _bare(cell: Any) -> Any:
+    """A cell without the standard error behind its number."""
+    return PLUS_MINUS.sub("", cell) if isinstance(cell, str) else cell

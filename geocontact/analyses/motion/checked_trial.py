@@ -26,10 +26,10 @@ def check_trial(trial: TrialInputs) -> frozenset[str]:
         Names of the checks that found something.
     """
     found = contradictions(trial)
-    for _, one in found:
+    for check, one in found:
         if one.refuse:
             raise InputError(one.source, one.place, one.what, one.remedy)
-        reserve(str(one))
+        reserve(str(one), cause=check.of_all)
     return frozenset(check.name for check, _ in found)
 
 

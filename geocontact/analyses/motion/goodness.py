@@ -64,6 +64,10 @@ def goodness_of_loads(forces: GeneralisedForces, said: str, misplaced: list[Misp
     off = forces.residual_forces > HEAVY * forces.model.weight
     if np.mean(off) >= MUCH:
         doubts += of_range("the residual force exceeds a third of the weight for", float(np.mean(off)))
+    turned = forces.residual_moments > HEAVY * forces.model.weight * forces.height
+    if np.mean(turned) >= MUCH:
+        what = "the residual moment exceeds a third of weight × height of the mass centre for"
+        doubts += of_range(what, float(np.mean(turned)))
     for load in misplaced:
         away = f"{load.distance:.2f} m from it and {load.nearest_distance:.2f} m from {load.nearest}"
         other = _without_side(load.body) == _without_side(load.nearest)  # a worn device may press anywhere

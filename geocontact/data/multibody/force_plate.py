@@ -96,6 +96,13 @@ class ForcePlate:
         between = any(np.array_equal(other.wrench.force, -self.wrench.force) for other in plates)
         return float(np.median(loaded)) if len(loaded) and not between else 0.0
 
+    def steepness(self) -> float:
+        """Share of the force that is along the plate's normal under load, in the median; NaN without any."""
+        size = np.linalg.norm(self.wrench.force, axis=1)
+        loaded = size >= LOADED
+        shares = np.abs(self.wrench.force[loaded] @ self.normal) / size[loaded]
+        return float(np.median(shares)) if len(shares) else float("nan")
+
     def outside(self) -> float:
         """How far the centre of pressure lies beyond the plate's edge under load, in the median, in its lengths.
 

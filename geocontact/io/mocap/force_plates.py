@@ -30,6 +30,10 @@ WORN = 0.4
 """Share of the body's weight that a force may press down with as a device that is worn: of a plate the wrong way round
 half of it and more, by one of two feet that stand."""
 
+STEEP = 0.7
+"""Share of a force that is along the plate's normal, in the median under load: of a foot it is near 1, since
+walking people's shear is a tenth of the load."""
+
 RETURNS = 10.0
 """Load [N] below which a plate has returned to nothing."""
 
@@ -90,6 +94,9 @@ def _require_up(plate: ForcePlate, plates: tuple[ForcePlate, ...], path: Path, w
         return
     up = "xyz"[int(np.argmax(np.abs(plate.normal)))]
     what = f"its force along {up}, which is up, is {usual:.4g} N under load"
+    if -usual > WORN * weight and plate.steepness() < STEEP:
+        remedy = "are the plate's axes exchanged, or is another one up?"
+        raise InputError(path, plate.name, f"{what}, {plate.steepness():.0%} of the force", remedy)
     if -usual > WORN * weight:
         remedy = "give the force on the foot: turn the sign of forces and torques"
         raise InputError(path, plate.name, f"{what}: that is the force on the plate", remedy)

@@ -20,8 +20,8 @@ HARMLESS = 64_000_000
 MOST_TIMES = 300
 """Largest ratio of unpacked to packed size."""
 _PIECE, _LONGEST_MARK = 1 << 22, 64
-_CELL = re.compile(rb'\br="([A-Z]{1,3})[0-9]{1,7}"')
-_ROW = re.compile(rb'\br="[A-Z]{0,3}([0-9]{1,7})"')
+_CELL = re.compile(rb"""\br\s*=\s*["']([A-Z]{1,3})[0-9]{1,7}["']""")
+_ROW = re.compile(rb"""\br\s*=\s*["'][A-Z]{0,3}([0-9]{1,7})["']""")
 
 
 def refuse_unpacked(path: str | PathLike[str], most_bytes: int) -> None:

@@ -39,6 +39,7 @@ from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loa
 from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, listed, read_table
+from geocontact.trial_checks.channel_checks import SLOWEST
 from geocontact.trial_checks.landmarks import body_points
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 
@@ -182,7 +183,8 @@ def warn_of_other_feet(
     for load in misplaced:
         reserve(
             f"the load on {load.body} acts {load.distance:.2f} m from it and {load.nearest_distance:.2f} m from "
-            f"{load.nearest} (median over its frames): are the loads of the two exchanged?"
+            f"{load.nearest} (median over its frames): are the loads of the two exchanged?",
+            cause=True,
         )
     return misplaced
 
@@ -252,7 +254,9 @@ def _filtered(table: TextTable, values: Float[np.ndarray, "t n"], cutoff: float)
     try:
         return as_opensim(values, step, cutoff)
     except ValueError as error:
-        raise InputError(table.file, "`cutoff`", str(error), "0 leaves the coordinates as they are") from error
+        seconds = "" if step < 1.0 / SLOWEST else "; is its time in s, not in ms or frames?"
+        remedy = f"0 leaves the coordinates as they are{seconds}"
+        raise InputError(table.file, "`cutoff`", str(error), remedy) from error
 
 
 def _shown(table: TextTable, span: tuple[float, float] | None) -> slice:

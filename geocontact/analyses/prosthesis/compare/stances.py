@@ -50,10 +50,10 @@ def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
     """Every stance; what is warned of several is one line."""
     study = read_gait_study(o.study)
     add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
-    seen: dict[str, list[str]] = {}
+    seen: dict[tuple[str, bool], list[str]] = {}
     found = tuple(_stance(each, study.persons[each.person], o, seen) for each in study.trials)
-    for line, names in seen.items():
-        reserve(f"{_whose(names, len(found))}: {line}")
+    for (line, cause), names in seen.items():
+        reserve(f"{_whose(names, len(found))}: {line}", cause=cause)
     return found
 
 
@@ -65,17 +65,18 @@ def _whose(names: Sequence[str], count: int) -> str:
 
 
 def _stance(
-    trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, seen: dict[str, list[str]]
+    trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, seen: dict[tuple[str, bool], list[str]]
 ) -> StudiedStance:
-    """One stance; its warnings go into `seen` with its name."""
+    """One stance; its warnings, and whether inputs contradict each other in them, go into `seen` with its name."""
     asked = _asked(trial, person, o)
     _require_setting(asked, trial, o)
     with collecting(Record("prosthesis simulate", {})) as own:
         walk = walk_of(read_walk(asked), asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
-    for line in (each.replace("`", "") for each in own.warnings):  # keys of the study, no options of this command
-        seen.setdefault(line, []).append(trial.name)
+    for line in own.warnings:
+        said = line.replace("`", "")  # keys of the study, no options of this command
+        seen.setdefault((said, line in own.causes), []).append(trial.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")
     return StudiedStance(trial, person, asked, walk, walk.plate)

@@ -111,7 +111,7 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:
         if not any(line in known for known in current().warnings):
-            reserve(f"{trial.name}: {line}")
+            reserve(f"{trial.name}: {line}", cause=line in own.causes)
     return found
 
 
