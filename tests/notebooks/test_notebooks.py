@@ -72,7 +72,7 @@ def test_kept_without_outputs_and_with_any_python(notebook):
     assert "version" not in book["metadata"].get("language_info", {})
 
 
-WITH_BODIES = sorted({notebook.stem for notebook in NOTEBOOKS} - {"gap", "gap_own_model"})
+WITH_BODIES = sorted({notebook.stem for notebook in NOTEBOOKS} - {"elbow", "gap", "gap_own_model"})
 PICTURE = re.compile(r"!\[[^\]]+\]\((\.\./docs/pictures/\w+\.webp)\)")
 
 
