@@ -357,3 +357,76 @@ def run_scaling(setup: Path) -> None:
 
     opensim.Logger.setLevelString("Off")
     opensim.ScaleTool(str(setup)).run()
+
+
+def static_optimisation(
+    file: Path, coordinates: Path, loads: Path, span: tuple[float, float], folder: Path, free: Sequence[str]
+) -> tuple[list[str], np.ndarray, list[str], np.ndarray]:
+    """Activations of OpenSim's own tool, and its reaction on tibia_r across the knee in that body; names, time first.
+
+    Reserves of 1 N m act along all coordinates, of 1000 along those of `free`, which no muscle drives.
+    """
+    import opensim
+
+    model, _ = _model(file)
+    for k in range(model.getMuscles().getSize()):
+        muscle = opensim.Thelen2003Muscle.safeDownCast(model.updMuscles().get(k))
+        muscle.setMinimumActivation(0.01)
+        muscle.setMinControl(0.01)
+    for k in range(model.getCoordinateSet().getSize()):
+        name = model.getCoordinateSet().get(k).getName()
+        reserve = opensim.CoordinateActuator(name)
+        reserve.setName(f"reserve_{name}")
+        reserve.setOptimalForce(1000.0 if name in free else 1.0)
+        reserve.setMinControl(-1e4)
+        reserve.setMaxControl(1e4)
+        model.addForce(reserve)
+    model.finalizeConnections()
+    model.printToXML(str(folder / "reserved.osim"))
+    tool = opensim.AnalyzeTool()
+    tool.setName("so")
+    tool.setModelFilename(str(folder / "reserved.osim"))
+    tool.setCoordinatesFileName(str(coordinates))
+    tool.setExternalLoadsFileName(str(loads))
+    tool.setLowpassCutoffFrequency(6.0)
+    tool.setInitialTime(span[0])
+    tool.setFinalTime(span[1])
+    tool.setResultsDir(str(folder))
+    found = opensim.StaticOptimization()
+    found.setUseMusclePhysiology(False)
+    found.setActivationExponent(2.0)
+    found.setConvergenceCriterion(1e-7)
+    found.setMaxIterations(1000)
+    found.setStartTime(span[0])
+    found.setEndTime(span[1])
+    tool.updAnalysisSet().cloneAndAppend(found)
+    tool.printToXML(str(folder / "setup.xml"))
+    opensim.AnalyzeTool(str(folder / "setup.xml")).run()
+    activations = folder / "so_StaticOptimization_activation.sto"
+    reaction = opensim.JointReaction()
+    reaction.setName("JointReaction")
+    for setting, name in (
+        (reaction.setJointNames, "knee_r"),
+        (reaction.setOnBody, "child"),
+        (reaction.setInFrame, "child"),
+    ):
+        names = opensim.ArrayStr()
+        names.append(name)
+        setting(names)
+    reaction.setForcesFileName(str(folder / "so_StaticOptimization_force.sto"))
+    tool.updAnalysisSet().setSize(0)
+    tool.updAnalysisSet().cloneAndAppend(reaction)
+    tool.printToXML(str(folder / "reaction.xml"))
+    opensim.AnalyzeTool(str(folder / "reaction.xml")).run()
+    return *_table(activations), *_table(folder / "so_JointReaction_ReactionLoads.sto")
+
+
+def _table(file: Path) -> tuple[list[str], np.ndarray]:
+    """Names of its columns, time first, and all values."""
+    import opensim
+
+    table = opensim.TimeSeriesTable(str(file))
+    names = list(table.getColumnLabels())
+    rows = [table.getRowAtIndex(t) for t in range(table.getNumRows())]
+    values = np.array([[row[k] for k in range(len(names))] for row in rows])
+    return ["time", *names], np.column_stack([np.array(table.getIndependentColumn()), values])

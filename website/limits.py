@@ -7,13 +7,19 @@ says where it stands.
 from __future__ import annotations
 
 import ast
+import csv
 import re
+from collections import Counter
 from pathlib import Path
 
 from website.stage import ROOT
 
 PAGE = "docs/reference/limits.md"
 README = ROOT / "README.md"  # not a page of the site
+PAPERS = "papers.csv"
+"""What the five papers do, by item: state, command and file; beside the page."""
+STATES = ("done", "other", "partly", "open", "missing")
+"""Of an item: there; done otherwise, on purpose, with its reason; some of it; in work; not there."""
 HEADINGS = ("Limits", "What it does not do", "What these trials cannot distinguish", "What it leaves out")
 LINK = re.compile(r"\]\(([^):\s]+)\)")
 
@@ -27,8 +33,28 @@ def limits() -> str:
     for file in [README, *sorted((ROOT / "docs").rglob("*.md"))]:
         if file != ROOT / PAGE:
             parts += _of_page(file)
+    parts += _of_papers()
     parts += ["## What tests expect to fail", "Each with the reason that the test states.", _xfails()]
     return "\n\n".join(parts) + "\n"
+
+
+def papers() -> list[dict[str, str]]:
+    """Rows of the table of the papers."""
+    text = (ROOT / PAGE).with_name(PAPERS).read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))
+
+
+def _of_papers() -> list[str]:
+    """How many items of the papers are there, and those that are not, by name."""
+    rows = papers()
+    counts = Counter(row["state"] for row in rows)
+    counted = ", ".join(f"{counts[state]} {state}" for state in STATES)
+    named = {state: "; ".join(row["what"] for row in rows if row["state"] == state) for state in ("missing", "partly")}
+    items = [
+        f"- {len(rows)} items: {counted}.",
+        *(f"- {state.title()}: {what}." for state, what in named.items() if what),
+    ]
+    return [f"## [The five papers, item by item]({PAPERS})", "\n".join(items)]
 
 
 def _of_page(file: Path) -> list[str]:

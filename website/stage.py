@@ -33,8 +33,8 @@ def stage(out: Path, generated: dict[str, str]) -> None:
         if page.suffix == ".md":
             staged = out / page
             staged.write_text(with_tables_marked(staged.read_text(encoding="utf-8")), encoding="utf-8")
-            for file in linked_files(page):
-                _copy(file, out)
+        for file in linked_files(page):
+            _copy(file, out)
     for place, text in generated.items():
         target = out / place
         target.parent.mkdir(parents=True, exist_ok=True)

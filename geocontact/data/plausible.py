@@ -183,6 +183,7 @@ SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))
 YOUNG = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e5), why="gels to ceramics")
 SOFTER = Plausible("Young's modulus", MPa, (1e-3, 2e6), (5e-3, 5e4), why="gels to cortical bone")
 """Bone has 20 GPa; metal and ceramics, of which the harder body is, 100 and more."""
+ADHESION = Plausible("the work of adhesion", J_PER_M2, (1e-6, 1e3), (1e-3, 1.0))
 CONTACT = Plausible("a modulus of contact", MPa, (1e-3, 1e6), (5e-3, 3e5), why="gels to ceramic on ceramic")
 BEARING = Plausible("a pressure in a bearing", MPa, (0.0, 1e4), (1e-3, 60.0), why="soft layers; polyethylene to 50 MPa")
 ROUNDED = Plausible("the radius of a part of a body", mm, (1e-3, 1e4), (0.5, 180.0), why="small implants to a torso")

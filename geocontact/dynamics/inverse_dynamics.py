@@ -10,7 +10,7 @@ SpringGeneralizedForce, BushingForce).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,18 +99,26 @@ def generalised_forces(tree: Tree, loads: Wrenches | None = None) -> SX:
     """What acts along each coordinate, beside gravity and the loads [N m, N], for `tree.q`, `tree.u` and `tree.a`."""
     from casadi import cross, mtimes, vertcat
 
+    across = wrenches_across(tree, loads)
+    parts: list[SX] = []
+    for joint, axis in zip(tree.model.joints, tree.axes, strict=True):
+        force, moment = across[joint.child]
+        about = moment - cross(axis.place, force)
+        parts.append(mtimes(axis.spin.T, about) + mtimes(axis.speed.T, force))
+    return vertcat(*parts)
+
+
+def wrenches_across(tree: Tree, loads: Wrenches | None = None) -> Wrenches:
+    """What acts on each body across the joint to its parent, bones and muscles together; by the body's name."""
     needed = {body.name: _needed(tree, body.name) for body in tree.model.bodies}
     for name, (force, moment) in (loads or {}).items():
         if name != GROUND:
             needed[name] = (needed[name][0] - force, needed[name][1] - moment)
-    parts: list[SX] = []
-    for joint, axis in reversed(list(zip(tree.model.joints, tree.axes, strict=True))):
+    for joint in reversed(tree.model.joints):
         force, moment = needed[joint.child]
-        about = moment - cross(axis.place, force)
-        parts.insert(0, mtimes(axis.spin.T, about) + mtimes(axis.speed.T, force))
         if joint.parent != GROUND:
             needed[joint.parent] = (needed[joint.parent][0] + force, needed[joint.parent][1] + moment)
-    return vertcat(*parts)
+    return needed
 
 
 def _needed(tree: Tree, name: str) -> tuple[SX, SX]:
@@ -155,6 +163,44 @@ def forces_along(
     passive
         Forces of the model itself.
     """
+
+    def needed(acting: Wrenches) -> SX:
+        along, on = passive_loads(tree, passive)
+        return generalised_forces(tree, _summed(acting, on)) - along
+
+    return _over_time(tree, time, values, wanted, loads, needed)
+
+
+def force_across(
+    tree: Tree,
+    body: str,
+    time: Float[np.ndarray, " t"],
+    values: Float[np.ndarray, "t n"],
+    wanted: Float[np.ndarray, " w"],
+    loads: Mapping[str, Wrench],
+) -> tuple[Float[np.ndarray, "w 3"], Float[np.ndarray, "w 3 3"]]:
+    """Force on a body across the joint to its parent [N], in the ground's frame, and the body's rotation.
+
+    Bones, ligaments and muscles have it together; passive forces of the model are among them. Else as `forces_along`.
+    """
+    from casadi import reshape, vertcat
+
+    def needed(acting: Wrenches) -> SX:
+        return vertcat(wrenches_across(tree, acting)[body][0], reshape(tree.bodies[body].rotation, 9, 1))
+
+    found = _over_time(tree, time, values, wanted, loads, needed)
+    return found[:, :3], np.ascontiguousarray(found[:, 3:].reshape(-1, 3, 3).swapaxes(1, 2))
+
+
+def _over_time(
+    tree: Tree,
+    time: Float[np.ndarray, " t"],
+    values: Float[np.ndarray, "t n"],
+    wanted: Float[np.ndarray, " w"],
+    loads: Mapping[str, Wrench],
+    needed: Callable[[Wrenches], SX],
+) -> Float[np.ndarray, "w k"]:
+    """A column of expressions of the state and of what acts on bodies, at the times that are wanted."""
     from casadi import SX, Function, vertcat
 
     unknown = set(loads) - set(tree.bodies)
@@ -162,9 +208,7 @@ def forces_along(
         raise ValueError(f"there is no body {min(unknown)}; bodies are {', '.join(tree.bodies)}")
     acting = {name: (SX.sym("force", 3), SX.sym("moment", 3)) for name in loads}
     given = vertcat(*(each for pair in acting.values() for each in pair))
-    along, on = passive_loads(tree, passive)
-    needed = generalised_forces(tree, _summed(acting, on)) - along
-    run = Function("forces", [tree.q, tree.u, tree.a, given], [needed])
+    run = Function("forces", [tree.q, tree.u, tree.a, given], [needed(acting)])
     curve = make_interp_spline(time, values, k=SMOOTH)
     about = [wrench.moved_to(np.zeros(3)) for wrench in loads.values()]
     known = np.hstack([np.zeros((len(wanted), 0)), *(part for each in about for part in (each.force, each.moment))])

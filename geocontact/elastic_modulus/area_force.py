@@ -10,13 +10,15 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
-from geocontact.contact.adhesion import dmt_pull_off
+from geocontact.contact.adhesion import dmt_pull_off, jkr_pull_off
 from geocontact.contact.area_hertz import PatchGeometry, Reading
 from geocontact.data.evolution import TiltedAreas
 
 MODULUS, THRESHOLD, LAG, ADDUCTION, SLOPE = "modulus", "threshold", "lag", "adduction", "slope"
+WORK = "work"
 """Names of the parameters: E* [Pa], threshold of the area [m], lag of the force's clock behind the area's [s], offset
-of adduction that is added to the recorded pose [rad], and the share by which R grows per flexion [1/rad]."""
+of adduction that is added to the recorded pose [rad], the share by which R grows per flexion [1/rad], and the work of
+adhesion [J/m^2]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +103,11 @@ class Adhesion:
     @property
     def words(self) -> str:
         """Law and work, as a sentence names them."""
-        return f"{self.law.upper()}'s adhesion with a work of {self.work:g} J/m²"
+        return f"{self.law.upper()}'s adhesion with a work of {self.work:.4g} J/m²"
+
+    def pull_off(self, radius: float, work: float) -> float:
+        """Force at which bodies of this relative radius [m] and work of adhesion [J/m^2] come apart, below 0 [N]."""
+        return float(dmt_pull_off(radius, work) if self.law == "dmt" else jkr_pull_off(radius, work))
 
     def pull(self, area: Float[np.ndarray, " t"], radius: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
         """Pull [N] for DMT, over sqrt(E*) for JKR; 0 without area."""
@@ -146,7 +152,7 @@ class AreaForce:
     threshold
         Used unless it is a free parameter [m].
     adhesion
-        What holds the bodies together besides; None where they do not stick.
+        What holds the bodies together besides; None where they do not stick. Its work is used unless it is free.
     """
 
     evolution: ThresholdAreas
@@ -179,10 +185,15 @@ class AreaForce:
             return np.asarray(values[MODULUS] * unit)
         return self.adhesion.force(unit, self._pull(values, self.adhesion), values[MODULUS])
 
+    def sticking(self, values: Mapping[str, float]) -> Adhesion | None:
+        """What holds the bodies together, with the free work where it is one of `values`."""
+        return None if self.adhesion is None else replace(self.adhesion, work=values.get(WORK, self.adhesion.work))
+
     def _pull(self, values: Mapping[str, float], adhesion: Adhesion) -> Float[np.ndarray, " n"]:
         evolution = self.evolution.with_offsets(values)
         area = evolution.within(values.get(THRESHOLD, self.threshold))
-        return self._at_frames(adhesion.pull(area, evolution.radius), values)
+        sticks = replace(adhesion, work=values.get(WORK, adhesion.work))
+        return self._at_frames(sticks.pull(area, evolution.radius), values)
 
     def predict(self, values: Mapping[str, float]) -> list[Float[np.ndarray, "_ c"]]:
         """The same as `least_squares.Predict` has it: one trial, one channel."""

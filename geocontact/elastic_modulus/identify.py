@@ -6,12 +6,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.contact.elasticity import plane_modulus
 from geocontact.data.evolution import TiltedAreas
 from geocontact.data.parameter import Parameter
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, AreaForce, derivative
+from geocontact.elastic_modulus.area_force import (
+    ADDUCTION,
+    LAG,
+    MODULUS,
+    SLOPE,
+    THRESHOLD,
+    WORK,
+    AreaForce,
+    derivative,
+)
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.intervals.block_bootstrap import Replicates, block_bootstrap
 from geocontact.identify.intervals.profile_likelihood import Profile, profile
@@ -60,6 +69,8 @@ REPLICATES = 1000
 REFITS = 200  # replicates at most where more than E* is free and each is a search
 FLAT = 1e-9  # of the force; a parameter that changes less within its bounds is not told
 SMALL = 1e-6  # of a threshold, a lag or an offset, for differences [m, s, rad, 1/rad]
+NEAR = 1e-6  # of the range between bounds, or of the lower one: a value so near lies on it
+PART = 1e-5  # of E*, E, R or a work of adhesion, for differences
 POISSON = 0.25  # where the sensitivity to it is taken; which value does not matter
 YOUNG, RATIO, RADIUS = "E", "nu", "R"
 
@@ -166,7 +177,7 @@ def identify(
     Parameters
     ----------
     others
-        Free parameters besides E*: "threshold" [m], "lag" [s], "adduction" [rad], "slope" [1/rad].
+        Free parameters besides E*: "threshold" [m], "lag" [s], "adduction" [rad], "slope" [1/rad], "work" [J/m^2].
     replicates
         Of the bootstrap; 0 for none.
     starts
@@ -181,7 +192,7 @@ def identify(
     if not np.isfinite(jacobian).all():
         raise ValueError("the law has no slope at the best fit")
     _require_effect(model, fit, others, jacobian)
-    memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], jacobian)
+    memory = autocorrelation_of(model.frames, fit.residuals[0][:, 0], jacobian[:, _inside(fit, parameters)])
     profiles = {
         name: profile(model.predict, measured, model.frames, parameters, fit, memory, name, level) for name in fit.names
     }
@@ -197,6 +208,21 @@ def _require_effect(
         slope = float(np.linalg.norm(jacobian[:, fit.names.index(one.name)]))
         if slope * (one.upper - one.lower) <= FLAT * size:
             raise ValueError(f"{one.name} is not identifiable: the areas do not change with it at the best fit")
+
+
+def _inside(fit: Fit, parameters: Sequence[Parameter]) -> Bool[np.ndarray, " p"]:
+    """Parameters that do not lie on a bound; E* always.
+
+    On a bound the residual still holds what the parameter would take: the noise is estimated without its column.
+    """
+    bounds = {p.name: (p.lower, p.upper) for p in parameters}
+    return np.array([name == MODULUS or _between(fit.values[name], *bounds[name]) for name in fit.names])
+
+
+def _between(value: float, lower: float, upper: float) -> bool:
+    """Further from both bounds than a search stops from them."""
+    span = upper - lower
+    return lower + NEAR * (min(span, abs(lower)) if lower else span) < value < upper - NEAR * span
 
 
 def _bootstrap(
@@ -232,16 +258,17 @@ def _told_apart(model: AreaForce, fit: Fit, jacobian: Float[np.ndarray, "n p"]) 
         evolution = replace(model.evolution, radius=model.evolution.radius * v[RADIUS])
         return replace(model, evolution=evolution).force({**values, MODULUS: v[MODULUS]})
 
-    pair = np.column_stack([derivative(by_material, sides, name, 1e-5 * sides[name]) for name in sides])
+    pair = np.column_stack([derivative(by_material, sides, name, PART * sides[name]) for name in sides])
     scaled = {MODULUS: star, RADIUS: 1.0}
-    radius = np.column_stack([derivative(by_radius, scaled, name, 1e-5 * scaled[name]) for name in scaled])
+    radius = np.column_stack([derivative(by_radius, scaled, name, PART * scaled[name]) for name in scaled])
     groups = {"E, nu": identifiability(("E", "nu"), pair), "E*, R": identifiability(("E*", "R"), radius)}
     full = {THRESHOLD: model.threshold, LAG: model.taken, **_offsets(model), **values}
-    for name in [name for name in (THRESHOLD, LAG, ADDUCTION, SLOPE) if name in full]:
+    for name in [name for name in (THRESHOLD, LAG, ADDUCTION, SLOPE, WORK) if name in full]:
         if name == THRESHOLD and len(model.evolution.thresholds) == 1:
             continue
+        step = PART * full[WORK] if name == WORK else SMALL
         columns = np.column_stack(
-            [derivative(model.force, full, each, h) for each, h in ((MODULUS, 1e-5 * star), (name, SMALL))]
+            [derivative(model.force, full, each, h) for each, h in ((MODULUS, PART * star), (name, step))]
         )
         if float(np.linalg.norm(columns[:, 1])) > 0.0:
             groups[f"E*, {name}"] = identifiability(("E*", name), columns)
@@ -251,7 +278,8 @@ def _told_apart(model: AreaForce, fit: Fit, jacobian: Float[np.ndarray, "n p"]) 
 
 
 def _offsets(model: AreaForce) -> dict[str, float]:
-    """What else could be free, at nothing."""
+    """What else could be free, at nothing; a work of adhesion as given."""
     evolution = model.evolution
     known = ((ADDUCTION, evolution.tilts is not None), (SLOPE, evolution.flexion is not None))
-    return {name: 0.0 for name, there in known if there}
+    sticks = {} if model.adhesion is None else {WORK: model.adhesion.work}
+    return {**{name: 0.0 for name, there in known if there}, **sticks}

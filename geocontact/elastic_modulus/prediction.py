@@ -40,7 +40,7 @@ class Prediction:
 
 def predicted_force(areas: ThresholdAreas, each: Identification, threshold: float) -> Float[np.ndarray, " t"]:
     """Force [N] that areas within `threshold` [m] carry by the law, reading and adhesion that were identified."""
-    unit, sticks = areas.per_modulus(each.model.reading, threshold), each.model.adhesion
+    unit, sticks = areas.per_modulus(each.model.reading, threshold), each.model.sticking(each.fit.values)
     if sticks is None:
         return np.asarray(each.modulus * unit)
     return sticks.force(unit, sticks.pull(areas.within(threshold), areas.radius), each.modulus)

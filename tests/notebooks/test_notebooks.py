@@ -72,6 +72,21 @@ def test_kept_without_outputs_and_with_any_python(notebook):
     assert "version" not in book["metadata"].get("language_info", {})
 
 
+WITH_BODIES = sorted({notebook.stem for notebook in NOTEBOOKS} - {"elbow", "gap", "gap_own_model"})
+PICTURE = re.compile(r"!\[[^\]]+\]\((\.\./docs/pictures/\w+\.webp)\)")
+
+
+@pytest.mark.parametrize("name", WITH_BODIES)
+def test_bodies_are_seen_where_nothing_was_run(name):
+    """The page in 3-D, as the gallery has it: outputs are not kept, and a picture of 100 kB at most is."""
+    book = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8"))
+    files = PICTURE.findall("".join(book["cells"][0]["source"]))
+    assert len(files) == 1
+    picture = ROOT / "notebooks" / files[0]
+    assert picture.stat().st_size < 100_000 and picture.read_bytes()[8:12] == b"WEBP"
+    assert picture.name in (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+
+
 WITHOUT_PYPLOT = """
 import sys
 import geocontact as gc

@@ -50,3 +50,13 @@ def test_no_reading_and_no_threshold_gives_the_papers_modulus(og1: Call) -> None
     assert set(total["reading"]) == {"disc", "discs", "strip", "cap", "threshold"}
     assert total["E_star [Pa]"].max() < 0.01 * PAPER["E"]
     assert total["r2 [-]"].max() < 0.5, "the area alone explains less than half of the force's variance"
+
+
+def test_the_load_of_a_knee_shows_no_work_of_adhesion(og1: Call, data_dir: Path, tmp_path: Path) -> None:
+    """The area varies little and the force tenfold: the pull runs to its bound, and is called no work of adhesion."""
+    force = data_dir / WORKSHOP / "KCF_ref.mot"
+    arguments = ["--area", og1.folder.parent / "area" / "area.csv", "--force", force, "--unit", "lbf"]
+    sticks = ["--radius-mm", 37, "--adhesion", "dmt", "--free", "work", "--bootstrap", 0]
+    found = done(call("modulus", *arguments, *sticks, "--out", tmp_path / "m", folder=tmp_path / "m"))
+    surface = json.loads((found.folder / "modulus.json").read_text(encoding="utf-8"))["surface_energy"]
+    assert surface["verdict"] == "not separable" and surface["work_ci95_J_per_m2"][1] == pytest.approx(1e3)

@@ -387,7 +387,7 @@ def length_pair(text: str, option: str) -> tuple[float, float]:
     return length(parts[0], option), length(parts[1], option)
 
 
-FREE_UNITS = {"threshold": LENGTH["mm"], "lag": 1.0, "adduction": ANGLE["deg"], "slope": 1.0}
+FREE_UNITS = {"threshold": LENGTH["mm"], "lag": 1.0, "adduction": ANGLE["deg"], "slope": 1.0, "work": 1.0}
 """SI units per unit in which the bounds of a free number are typed."""
 
 

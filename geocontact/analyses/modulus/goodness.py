@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
-from geocontact.data.plausible import CONTACT
-from geocontact.elastic_modulus.area_force import MODULUS
+from geocontact.data.plausible import ADHESION, CONTACT
+from geocontact.elastic_modulus.area_force import MODULUS, WORK
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
@@ -40,3 +40,5 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield Doubt(f"{side}: the data do not limit {name} within its bounds, on one side or both", False)
     profile = each.profiles[MODULUS]
     yield from of_size(f"{side}: E*", (profile.lower, profile.upper), CONTACT)
+    if (work := each.profiles.get(WORK)) and not work.upper_open:
+        yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)

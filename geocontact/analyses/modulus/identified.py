@@ -14,10 +14,11 @@ from jaxtyping import Float
 from geocontact.analyses.frame.json_file import finite, plain
 from geocontact.analyses.modulus.inputs import BOTH, HALVES, ModulusInputs, OtherTrial
 from geocontact.data.errors import InputError
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, ThresholdAreas
+from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, MODULUS, SLOPE, THRESHOLD, WORK, ThresholdAreas
 from geocontact.elastic_modulus.identify import Identification, agreement, moduli_of_poses
 from geocontact.elastic_modulus.prediction import Prediction, predicted_force
 from geocontact.elastic_modulus.sensitivity import SensitivityRow, confounded
+from geocontact.elastic_modulus.surface_energy import SurfaceEnergy, surface_energy
 from geocontact.elastic_modulus.threshold_calibration import Calibration
 from geocontact.geometry.contact_area.pose_error import ENDS
 from geocontact.identify.identifiability import Identifiability
@@ -156,6 +157,12 @@ class Identified:
         """The side of the headline."""
         return next(iter(self.sides.values()))
 
+    @property
+    def surfaces(self) -> dict[str, SurfaceEnergy]:
+        """Work of adhesion by side, where it was free."""
+        found = {side: surface_energy(each) for side, each in self.sides.items()}
+        return {side: each for side, each in found.items() if each is not None}
+
     def frames_once(self, side: str) -> int:
         """Frames of the motion that were used; both halves have the same."""
         return len(self.sides[side].model.frames) // (len(HALVES) if side == BOTH else 1)
@@ -175,6 +182,11 @@ class Identified:
         """What the data cannot identify; (E*, R) depends on the reading, the free numbers on the data."""
         each = self.first
         lines = [f"E* and {name} are one number here: {name} is not identifiable" for name in confounded(each)]
+        lines += [
+            f"{side}: the work of adhesion {energy.why}"
+            for side, energy in self.surfaces.items()
+            if not energy.separable
+        ]
         if each.told_apart["E*, R"].verdict != "one number":
             return [ONE_NUMBER, *lines]
         return [ONE_NUMBER, RADIUS, *([RADII] if SLOPE in each.fit.names else []), *lines]
@@ -234,18 +246,20 @@ def sensitivity_table(found: Identified) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0, ADDUCTION: math.degrees(1.0), SLOPE: 1.0}
-UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s", ADDUCTION: "deg", SLOPE: "1/rad"}
+PER_SI = {MODULUS: 1.0, THRESHOLD: 1e3, LAG: 1.0, ADDUCTION: math.degrees(1.0), SLOPE: 1.0, WORK: 1.0}
+UNITS = {MODULUS: "Pa", THRESHOLD: "mm", LAG: "s", ADDUCTION: "deg", SLOPE: "1/rad", WORK: "J/m^2"}
 
 
 def describe(found: Identified) -> dict[str, Any]:
     """The first side's numbers at the top, every side's under `compartments`."""
     sides = {side: _numbers(side, each, found) for side, each in found.sides.items()}
     first, head = next(iter(sides)), found.first
+    surface = found.surfaces.get(first)
+    unseen = {MODULUS, *confounded(head), *([] if surface is None or surface.separable else [WORK])}
     content: dict[str, Any] = {
         "side": first,
         **sides[first],
-        "identifiable": ["E*", *(n for n in head.fit.names if n not in {MODULUS, *confounded(head)})],
+        "identifiable": ["E*", *(n for n in head.fit.names if n not in unseen)],
         "not_identifiable": found.not_identifiable(),
         "compartments": {side: numbers for side, numbers in sides.items() if side not in ("total", BOTH)},
         "threshold_sensitivity": [
@@ -278,7 +292,7 @@ def describe(found: Identified) -> dict[str, Any]:
 def _numbers(side: str, each: Identification, found: Identified) -> dict[str, Any]:
     model, star, values = each.model, each.profiles[MODULUS], dict(each.fit.values)
     rmse, r2 = agreement(each.measured, each.predicted)
-    radius, count, sticks = model.evolution.radius, found.frames_once(side), model.adhesion
+    radius, count, sticks = model.evolution.radius, found.frames_once(side), model.sticking(values)
     return {
         "E_star_Pa": each.modulus,
         "E_star_ci95_Pa": [star.lower, star.upper],
@@ -287,6 +301,7 @@ def _numbers(side: str, each: Identification, found: Identified) -> dict[str, An
         "reading": model.reading.name,
         "reading_words": model.reading.words,
         **({} if sticks is None else {"adhesion": sticks.law, "work_of_adhesion_J_per_m2": sticks.work}),
+        **({"surface_energy": _surface(found.surfaces[side])} if side in found.surfaces else {}),
         "threshold_mm": values.get(THRESHOLD, model.threshold) * 1e3,
         "radius_mm": [float(radius.min()) * 1e3, float(radius.max()) * 1e3],
         "lag_s": values.get(LAG, model.taken),
@@ -305,6 +320,20 @@ def _numbers(side: str, each: Identification, found: Identified) -> dict[str, An
             for one in each.fit.record
         ],
         "identifiability": {name: _group(group) for name, group in each.told_apart.items()},
+    }
+
+
+def _surface(energy: SurfaceEnergy) -> dict[str, Any]:
+    """Work of adhesion and pull-off force with their intervals, and what acts alike."""
+    return {
+        "verdict": "separable" if energy.separable else "not separable",
+        "work_J_per_m2": energy.work,
+        "work_ci95_J_per_m2": [energy.lower, energy.upper],
+        "pull_off_N": energy.pull_off,
+        "pull_off_ci95_N": [energy.strongest, energy.weakest],
+        "radius_mm": energy.radius * 1e3,
+        "cosine_with_an_error_of_zero": finite(energy.as_zero),
+        "mean_pull_N": energy.zero,
     }
 
 

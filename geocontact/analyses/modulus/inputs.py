@@ -14,7 +14,16 @@ from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Parameter
-from geocontact.elastic_modulus.area_force import ADDUCTION, LAG, SLOPE, THRESHOLD, Adhesion, AreaForce, ThresholdAreas
+from geocontact.elastic_modulus.area_force import (
+    ADDUCTION,
+    LAG,
+    SLOPE,
+    THRESHOLD,
+    WORK,
+    Adhesion,
+    AreaForce,
+    ThresholdAreas,
+)
 from geocontact.elastic_modulus.identify import end_to_end
 from geocontact.elastic_modulus.prediction import shared_frames
 from geocontact.io.recordings.area_table import (
@@ -80,7 +89,8 @@ def read(o: ModulusOptions) -> ModulusInputs:
     sides = (BOTH,) if at_once else tuple(evolutions)
     measured = _measured_areas(o, table)
     lag = 0.0 if o.lag is None else o.lag
-    sticks = None if o.adhesion is None else Adhesion(o.adhesion, o.work_of_adhesion or 0.0)
+    given = STICKY if o.work_of_adhesion is None else o.work_of_adhesion
+    sticks = None if o.adhesion is None else Adhesion(o.adhesion, given)
     other, draws = _other(o, mapping), _draws(o, table, sides)
     return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, other, draws)
 
@@ -203,6 +213,7 @@ def unknowns(o: ModulusOptions, inputs: ModulusInputs, threshold: float) -> tupl
         LAG: lambda bounds: _lag(bounds, inputs.lag),
         ADDUCTION: lambda bounds: _adduction(bounds, inputs.table),
         SLOPE: lambda bounds: _slope(bounds, inputs),
+        WORK: lambda bounds: _work(bounds, inputs.adhesion),
     }
     return tuple(makers[name](bounds) for name, bounds in (o.free or {}).items())
 
@@ -252,6 +263,19 @@ def _slope(bounds: Bounds, inputs: ModulusInputs) -> Parameter:
         what += f" {np.degrees(largest):.0f} degrees of flexion"
         raise InputError("", "`free`", what, f"stay within {1.0 / largest:.3g} per rad")
     return Parameter(SLOPE, "1/rad", float(np.clip(0.0, low, high)), low, high)
+
+
+STICKY = 0.05
+"""J/m^2, of polymers and tissues (0.02 to 0.1): where the search for a work of adhesion begins unless one is given."""
+WORKS = 1e-6, 1e3
+"""J/m^2, between which it is searched unless bounds are given."""
+
+
+def _work(bounds: Bounds, sticks: Adhesion | None) -> Parameter:
+    if sticks is None:
+        raise InputError("", "`free`", "work needs `adhesion`", "say which law")
+    low, high = bounds or WORKS
+    return Parameter(WORK, "J/m^2", float(np.clip(sticks.work, low, high)), low, high)
 
 
 USUAL = 4.0e-3  # m, the threshold of the knee-implant paper

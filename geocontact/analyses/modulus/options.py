@@ -23,10 +23,9 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import DELAY, J_PER_M2, POISSON, RADIUS, STRIP, THRESHOLD, TURN, ByName, Plausible
+from geocontact.data.plausible import ADHESION, DELAY, POISSON, RADIUS, STRIP, THRESHOLD, TURN, ByName
 
-ADHESION = Plausible("the work of adhesion", J_PER_M2, (1e-6, 1e3), (1e-3, 1.0))
-FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN)))
+FREE = ByName((("threshold", THRESHOLD), ("lag", DELAY), ("adduction", TURN), ("work", ADHESION)))
 Free = Annotated[
     Mapping[str, tuple[float, float] | None],
     Typed("-", "free_numbers", '{"threshold": gc.mm(1, 6), "lag": None}'),
@@ -68,8 +67,8 @@ class ModulusOptions(Options):
     --------
     free
         Additional parameters to estimate, with bounds or without:
-        threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3 (mm, s, degrees, per rad of flexion; in Python a
-        dict of pairs in SI, None without bounds).
+        threshold=1:6,lag=-0.05:0.05,adduction=-2:2,slope=-0.3:0.3,work=0.001:10 (mm, s, degrees, per rad of flexion,
+        J/m^2 of `adhesion`; in Python a dict of pairs in SI, None without bounds).
     profile
         profile.csv of `geocontact fit` instead of `radius`: R follows flexion.
     flexion
@@ -86,7 +85,7 @@ class ModulusOptions(Options):
     adhesion
         dmt or jkr: bodies that stick, for the reading disc.
     work_of_adhesion
-        Work of adhesion w [J/m^2] of that law, which areas and forces do not identify.
+        Work of adhesion w [J/m^2] of that law; work in `free` estimates it, where forces near zero show it.
     poisson
         Poisson's ratio, or several, that E is given for: 0.25,0.46. E* needs none.
 
@@ -123,7 +122,7 @@ class ModulusOptions(Options):
     angles: Annotated[AngleUnit | None, Requires("flexion", "leave it out")] = None
     reading: Literal["disc", "discs", "strip", "cap", "threshold"] = "disc"
     length: Annotated[Millimetres | None, Spelled("length-mm", "length_mm"), STRIP] = None
-    adhesion: Annotated[Literal["dmt", "jkr"] | None, Needs("work_of_adhesion", "give for example 0.05")] = None
+    adhesion: Literal["dmt", "jkr"] | None = None
     work_of_adhesion: Annotated[float | None, Requires("adhesion", "say which law"), ADHESION] = None
     poisson: Annotated[Ratios, Spelled(default="0.25")] = (0.25,)
     calibrate: Annotated[Path | None, Excludes("threshold", "finds what `threshold` gives", "give one")] = None
@@ -136,7 +135,7 @@ class ModulusOptions(Options):
         if not self.poisson:
             raise InputError("", "`poisson`", "there is none", "give for example 0.46")
         self._refuse_free()
-        slope = "slope" in (self.free or {})
+        slope, work = ("slope" in (self.free or {}), "work" in (self.free or {}))
         refuse(
             (
                 (self.radius is None) == (self.profile is None),
@@ -157,6 +156,13 @@ class ModulusOptions(Options):
                 f"needs the radius of a patch, which the reading {self.reading} has not",
                 "leave out `reading`",
             ),
+            (
+                self.adhesion is not None and self.work_of_adhesion is None and not work,
+                "`adhesion`",
+                "needs `work_of_adhesion`",
+                "give for example 0.05, or work in `free`",
+            ),
+            (work and self.adhesion is None, "`free`", "work needs `adhesion`", "say which law"),
             (self.reading == "strip" and self.length is None, "`length`", "is missing for a strip", "give it"),
             (
                 self.predict_area is not None and (self.profile is not None or slope),

@@ -47,6 +47,7 @@ from geocontact.data.text import seconds
 from geocontact.elastic_modulus.area_force import MODULUS
 from geocontact.elastic_modulus.identify import Identification, agreement, identify
 from geocontact.elastic_modulus.sensitivity import sensitivity
+from geocontact.elastic_modulus.surface_energy import ALIKE
 from geocontact.elastic_modulus.threshold_calibration import Calibration, calibrated
 from geocontact.identify.signals.filters import gaps
 from geocontact.view.page.tables import frame_table
@@ -216,9 +217,12 @@ def _report(found: Identified) -> None:
         p = each.profiles[MODULUS]
         rmse, r2 = agreement(each.measured, each.predicted)
         span = f"{p.lower * 1e-6:.4g} … {p.upper * 1e-6:.4g}"
-        sticks = "" if each.model.adhesion is None else f", {each.model.adhesion.words}"
+        held = each.model.sticking(each.fit.values)
+        sticks = "" if held is None else f", {held.words}"
         interval = if_it_fits(f" (95 % {span})")
         say(f"{side}: E* {each.modulus * 1e-6:.4g} MPa{interval}, RMSE {rmse:.0f} N, R² {r2:.2f}{sticks}")
+    if not contradicted():
+        _report_surfaces(found)
     if found.poses is not None and not contradicted():
         alone, both = (
             " … ".join(f"{end * 1e-6:.4g}" for end in ends) for ends in (found.poses.interval, found.poses.both)
@@ -230,6 +234,21 @@ def _report(found: Identified) -> None:
     for told in found.predictions:
         if told.measured is not None:
             say(f"{told.side}, trial not used: RMSE {told.rmse:.0f} N, R² {told.r2:.2f}")
+
+
+def _report_surfaces(found: Identified) -> None:
+    """The work of adhesion and the pull-off force of each side, or that there is none to be seen."""
+    for side, e in found.surfaces.items():
+        span, pull = f"{e.lower:.3g} … {e.upper:.3g} J/m²", f"{-e.weakest:.3g} … {-e.strongest:.3g} N"
+        if not e.separable:
+            say(f"{side}: the work of adhesion {e.why}")
+            continue
+        say(
+            f"{side}: work of adhesion {e.work:.3g} J/m² (95 % {span}), they come apart at {-e.pull_off:.3g} N ({pull})"
+        )
+        if e.as_zero > ALIKE:
+            alike = f"an error of the force's zero acts as the work of adhesion does (cosine {e.as_zero:.2f})"
+            reserve(f"{side}: {alike}: {e.zero:.3g} N of it would be taken for all of w; record it unloaded")
 
 
 modulus = Job("modulus", ModulusOptions, read, run)

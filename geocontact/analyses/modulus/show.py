@@ -106,8 +106,8 @@ def _not_described(found: Identified, missed: dict[str, float]) -> str:
 
 
 def _sticking(found: Identified) -> str:
-    """What the law holds the bodies together by, where it does; the work is given, not found."""
-    sticks = found.first.model.adhesion
+    """What the law holds the bodies together by, where it does."""
+    sticks = found.first.model.sticking(found.first.fit.values)
     return "" if sticks is None else f" with {sticks.words}"
 
 
@@ -254,6 +254,7 @@ def modulus_page(title: str, found: Identified, curves: CurveSheet, tables: Sequ
 
 
 def _subtitle(found: Identified) -> str:
-    sticks = found.first.model.adhesion
-    law = "the area-integrated Hertz law" if sticks is None else f"Hertz's law less {sticks.words}, which is given"
+    sticks = found.first.model.sticking(found.first.fit.values)
+    source = "which was identified" if found.surfaces else "which is given"
+    law = "the area-integrated Hertz law" if sticks is None else f"Hertz's law less {sticks.words}, {source}"
     return f"Elastic modulus of a contact by {law}"

@@ -6,7 +6,16 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import AngleUnit, C3dUnit, Excludes, Expression, Texts, TimeSpan
+from geocontact.analyses.frame.marks import (
+    AngleUnit,
+    C3dUnit,
+    Excludes,
+    Expression,
+    ForceUnit,
+    Requires,
+    Texts,
+    TimeSpan,
+)
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, FORCE
@@ -50,12 +59,23 @@ class IdOptions(Options):
     exclude
         Passive forces of the model (coordinate limits, springs, bushings) that are left out, by name, by group of its
         force set, or all. May be given again. Muscles and actuators never act here.
+    muscles
+        Also estimate muscle forces: least squared activation that makes the moments. Needs the opensim package, for
+        paths of muscles.
+    across
+        Body beyond a joint whose contact force is computed from muscles and load: tibia_r for a knee.
+    held
+        Measured contact force of that joint over time (.csv .mot .sto): total, or medial and lateral, as of `geocontact
+        loadcells` or settle.csv. Muscles have to make it as well.
+    held_unit
+        Unit of these forces, unless each column says it.
     """
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes id.sto (for OpenSim), id.json with the residuals at the joint to the ground, cycles.csv where heel
-    strikes are known, report.html (a moving skeleton) and run.json into OUT.
+    strikes are known, muscles.csv and contact.csv with `muscles`, report.html (a moving skeleton) and run.json into
+    OUT.
     """
 
     coordinates: Path
@@ -72,6 +92,10 @@ class IdOptions(Options):
     events: Texts = ()
     angles: AngleUnit | None = None
     exclude: Texts = ()
+    muscles: bool = False
+    across: Annotated[str | None, Requires("muscles", "give it too")] = None
+    held: Annotated[Path | None, Requires("across", "say which joint")] = None
+    held_unit: Annotated[ForceUnit | None, Requires("held", "leave it out")] = None
 
     def refuse_impossible(self) -> None:
         """Plates without bodies, axes without plates."""

@@ -26,6 +26,7 @@ from geocontact.analyses.motion.gait_cycles import cycles_table
 from geocontact.analyses.motion.goodness import goodness_of_loads
 from geocontact.analyses.motion.inverse_dynamics.forces import warn_of_residuals, words, write_setup
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded, read, warn_of_other_feet
+from geocontact.analyses.motion.inverse_dynamics.muscles import EstimatedMuscles, estimated_muscles, muscle_tables
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_dynamics.show import forces_curves, forces_page
 from geocontact.data.multibody.model import PassiveForces
@@ -62,6 +63,8 @@ class IdResult(Result):
         Moments and forces by mass [N m/kg, N/kg] over the gait cycle, where there are heel strikes.
     summary
         Numbers of the whole motion, with units in their names.
+    muscles
+        Muscle forces and the contact force of a joint, where they were asked for.
     """
 
     elsewhere: ClassVar[frozenset[str]] = frozenset({"forces"})
@@ -73,6 +76,7 @@ class IdResult(Result):
     loads: Mapping[str, Wrench]
     cycles: GaitCycles
     summary: dict[str, Any]
+    muscles: EstimatedMuscles | None = None
 
     @property
     def time(self) -> Float[np.ndarray, " t"]:
@@ -85,11 +89,15 @@ class IdResult(Result):
         return dict(zip(self.forces.names, np.asarray(self.forces.values).T, strict=True))
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`forces`: a column for each coordinate, as OpenSim calls it, with its unit; `cycles` where there are some."""
+        """`forces`: a column for each coordinate, as OpenSim calls it, with its unit; `cycles`, `muscles`, `contact`
+        where there are some.
+        """
         f = self.forces
         units = ["N m" if name.endswith("_moment") else "N" for name in f.names]
         columns = {f"{n} [{unit}]": v for n, unit, v in zip(f.names, units, np.asarray(f.values).T, strict=True)}
         found = {"forces": pd.DataFrame({"time [s]": f.time, **columns})}
+        if self.muscles is not None:
+            found |= muscle_tables(self.muscles, f.time)
         return {**found, "cycles": cycles_table(self.cycles)} if self.cycles else found
 
     def figure(self) -> Figure:
@@ -100,7 +108,9 @@ class IdResult(Result):
         """Moments and forces over time, and what is left over."""
         title = f"Inverse dynamics of {self.options.coordinates.name}"
         return {
-            REPORT: forces_page(title, self.forces, self.coordinates, self.loads, self.cycles, self.sentences),
+            REPORT: forces_page(
+                title, self.forces, self.coordinates, self.loads, self.cycles, self.sentences, self.muscles
+            ),
         }
 
     def write_files(self, folder: Path) -> None:
@@ -130,6 +140,7 @@ def run(given: Loaded, o: IdOptions) -> IdResult:
     if forces.at_ground.any() and forces.peak > 0.0:
         judge(goodness_of_loads(forces, words(forces), misplaced), warned=True)
     _report(forces)
+    muscles = estimated_muscles(given, tree, forces, o)
     return IdResult(
         options=o,
         forces=forces,
@@ -138,6 +149,7 @@ def run(given: Loaded, o: IdOptions) -> IdResult:
         loads=given.loads,
         cycles=cycles,
         summary=summary,
+        muscles=muscles,
     )
 
 

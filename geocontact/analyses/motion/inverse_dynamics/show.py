@@ -12,6 +12,7 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
 from geocontact.analyses.motion.inverse_dynamics.forces import words
+from geocontact.analyses.motion.inverse_dynamics.muscles import EstimatedMuscles, muscle_curves
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import forces_on, scene_of, skeleton
 from geocontact.data.motion import Course
@@ -40,6 +41,7 @@ def forces_page(
     loads: Mapping[str, Wrench],
     cycles: GaitCycles,
     sentences: Sequence[str] = (),
+    muscles: EstimatedMuscles | None = None,
 ) -> Page:
     """The page of moments and forces over time."""
     shown = thinned(len(forces.time), list(np.asarray(forces.values).T))
@@ -50,6 +52,7 @@ def forces_page(
     sections: list[Section] = [
         scene_of(model, [skeleton(model, coordinates[shown]), *forces_on(model, loads, shown)]),
         *forces_curves(forces).at(shown),
+        *muscle_curves(muscles, shown),
         *cycles_curves(cycles),
         *_left_over(forces, values, turning, base),
         *_residuals(forces),
