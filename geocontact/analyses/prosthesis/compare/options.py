@@ -45,6 +45,9 @@ class ProsthesisCompareOptions(Options):
         Description of another foot (.toml), for persons who have none in the study.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    score
+        What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
+        of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
     machine_code
         Compile the equations first: the first run takes ten seconds longer, later runs are faster.
     workers
@@ -67,6 +70,7 @@ class ProsthesisCompareOptions(Options):
     c3d_unit: C3dUnit = None
     foot: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    score: Literal["stance", "study"] = "stance"
     machine_code: bool = False
     workers: int | None = None
 

@@ -37,6 +37,7 @@ from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOpti
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
+    LASTING,
     StudiedStance,
     ensembles_table,
     errors_table,
@@ -193,7 +194,10 @@ def _summarise(r: ProsthesisCompareResult) -> None:
         count = f"{sum(turned)} of {len(stances)} stances"
         say(f"height and pitch of the foot relative to its standing trial are taken from the law on {count}")
     if late:
-        say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
+        lasting = summary[summary["quantity"] == LASTING].set_index("setting")["difference"]
+        each_own = ", ".join(f"{setting} {1e3 * lasting[setting]:+.0f}" for setting in judged) if judged[1:] else ""
+        own = f"; {each_own} ms" if each_own else ""
+        say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms){own}")
     for one in stances:
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"

@@ -13,6 +13,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
+from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
 from geocontact.analyses.prosthesis.simulate.walk import simulated, walk_of
@@ -95,6 +96,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         law=trial.law or person.law,
         ground=trial.ground,
         socket=o.socket,
+        score=o.score,
         plates=trial.plates,
         other_plate=trial.other_plate,
         plate=trial.plate,
@@ -132,7 +134,8 @@ def simulated_stance(one: StudiedStance) -> LimbInSocket | str:
 def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
     """A simulated stance beside its plate."""
     trial = one.trial
-    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated)
+    scoring = SCORES[one.asked.score]
+    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated, scoring=scoring)
 
 
 ALL = "all"
@@ -161,13 +164,30 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
             row[f"{column} rmse"] = np.nan if own is None else own.rmsd
         row["better"] = np.nan if each.better is None else each.better
         rows.append(row)
+    rows += [_lasting(one) for one in stances]
     return pd.DataFrame(rows)
+
+
+LASTING = "stance"
+"""Quantity of the rows on how long a stance lasts: simulated less measured, and the size of that as its error."""
+
+
+def _lasting(one: JudgedStance) -> dict[str, object]:
+    """Length of one stance beside that on its plate [s]; no predictor without a model has one of its own."""
+    late = one.errors.stance[0] - one.errors.stance[1]
+    own = {"trial": one.name, "person": one.person, "setting": one.setting, "calibrated": one.calibrated}
+    return own | {"quantity": LASTING, "unit": "s", "rmse": abs(late), "difference": late}
 
 
 def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
     """Means and standard deviations by setting and over all, as the study's table 3; calibrated stances apart."""
     rows = []
-    names = ("r2 [-]", "rmse", *(f"{label} {kind}" for label in (MEAN, "another") for kind in ("rmse", "r2 [-]")))
+    names = (
+        "r2 [-]",
+        "rmse",
+        "difference",
+        *(f"{label} {kind}" for label in (MEAN, "another") for kind in ("rmse", "r2 [-]")),
+    )
     for calibrated, part in errors.groupby("calibrated", sort=False):
         settings = list(dict.fromkeys(part["setting"]))
         for setting in [*settings, ALL] if not calibrated else ["calibrated"]:
@@ -176,12 +196,13 @@ def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
                 numbers: dict[str, float] = {}
                 for name in names:
                     numbers[name] = float(group[name].mean())
-                    if name in names[:2]:
+                    if name in names[:3]:
                         spread = float(group[name].std(ddof=1)) if len(group) > 1 else np.nan
                         numbers[f"{name.partition(' ')[0]} sd"] = spread
                 better = group["better"].dropna()
                 told = {"setting": setting, "quantity": quantity, "unit": group["unit"].iloc[0]}
-                rows.append({**told, **numbers, "better": int(better.astype(bool).sum()), "trials": len(group)})
+                won = int(better.astype(bool).sum()) if quantity != LASTING else np.nan
+                rows.append({**told, **numbers, "better": won, "trials": len(group)})
     return pd.DataFrame(rows)
 
 

@@ -75,6 +75,9 @@ class ProsthesisSimulateOptions(Options):
         Name or number of the plate under the other foot: its force stands for the other leg.
     plate
         Name or number of the plate under the prosthetic foot, to compare with.
+    score
+        What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
+        of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
 
     The motion
     ----------
@@ -123,6 +126,7 @@ class ProsthesisSimulateOptions(Options):
     plates: Path | None = None
     other_plate: str | None = None
     plate: str | None = None
+    score: Literal["stance", "study"] = "stance"
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     socket_turns: int = TURNS
@@ -146,4 +150,6 @@ class ProsthesisSimulateOptions(Options):
         if self.plate == self.other_plate:
             what = f"{self.plate} is named for both feet"
             raise InputError("", "`plate`", what, "each foot needs a plate of its own")
+        if self.plate is None and self.score != "stance":
+            raise InputError("", "`score`", "without a plate nothing is compared", "name the `plate`")
         require_turns(self.socket_turns)

@@ -29,6 +29,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID
+from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.walk import (
@@ -190,7 +191,7 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
         raise InputError(
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
-    errors = None if walk.plate is None else stance_errors(found, walk.plate)
+    errors = None if walk.plate is None else stance_errors(found, walk.plate, SCORES[o.score])
     for line in doubts(found):
         reserve(line)
     if not limb.settled:

@@ -13,6 +13,7 @@ from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.scores import ROOM, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
@@ -120,6 +121,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
         residual=o.residual_length,
+        around=SCORES[o.score].around + ROOM,
     )
     if walk.hip is not None:
         say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")
