@@ -15,6 +15,8 @@ STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
 EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))
 USUAL_SHARE = 0.45
+FEWEST_WALKS, MOST_WALKS = 4, 600
+"""Draws of the markers' errors for a band: fewer say nothing about its width."""
 TURNS, MOST_TURNS = 6, 50
 """Fits of the leg after the first, each with the socket's simulated motion taken out of its markers; most of them."""
 
@@ -23,6 +25,12 @@ def require_turns(turns: int) -> None:
     """InputError for a number of fits that is none."""
     if not 0 <= turns <= MOST_TURNS:
         raise InputError("", "`socket_turns`", f"{turns} is not 0 to {MOST_TURNS}", f"give for example {TURNS}")
+
+
+def require_walks(walks: int | None) -> None:
+    """InputError for draws of the markers' errors that make no band."""
+    if walks is not None and not FEWEST_WALKS <= walks <= MOST_WALKS:
+        raise InputError("", "`walks`", f"{walks} is not {FEWEST_WALKS} to {MOST_WALKS}", "give for example 12")
 
 
 def require_one_residual(share: float, length: float | None) -> None:

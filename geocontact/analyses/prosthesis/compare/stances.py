@@ -15,8 +15,8 @@ from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOpti
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, band_of, simulated, walk_of
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.analyses.prosthesis.simulate.walk import simulated, walk_of
 from geocontact.below_knee_prosthesis.comparison import against_predictors, by_setting, ensembles
 from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
@@ -25,11 +25,14 @@ from geocontact.below_knee_prosthesis.evaluation import (
     JudgedStance,
     Oddness,
     PlateStance,
+    at_times,
     judged,
     reasons,
 )
 from geocontact.below_knee_prosthesis.leg import RESIDUAL
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
@@ -43,8 +46,17 @@ class StudiedStance:
     trial: GaitStance
     person: GaitPerson
     asked: ProsthesisSimulateOptions
+    recorded: RecordedWalk
     walk: Walk
     plate: PlateStance
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedStance:
+    """A stance along the limb's motion, and how far errors of the markers move it; None without draws."""
+
+    limb: LimbInSocket
+    band: MarkerBand | None
 
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
@@ -72,14 +84,15 @@ def _stance(
     asked = _asked(trial, person, o)
     _require_setting(asked, trial, o)
     with collecting(Record("prosthesis simulate", {})) as own:
-        walk = walk_of(read_walk(asked), asked)
+        recorded = read_walk(asked)
+        walk = walk_of(recorded, asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in (each.replace("`", "") for each in own.warnings):  # keys of the study, no options of this command
         seen.setdefault(line, []).append(trial.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")
-    return StudiedStance(trial, person, asked, walk, walk.plate)
+    return StudiedStance(trial, person, asked, recorded, walk, walk.plate)
 
 
 def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:
@@ -97,6 +110,9 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         ground=trial.ground,
         socket=o.socket,
         score=o.score,
+        walks=o.walks,
+        marker_error=o.marker_error,
+        seed=o.seed,
         plates=trial.plates,
         other_plate=trial.other_plate,
         plate=trial.plate,
@@ -122,13 +138,15 @@ def _require_setting(asked: ProsthesisSimulateOptions, trial: GaitStance, o: Pro
         raise replace(error, file=o.study, place=f"[[trials]] {trial.name} {error.place.strip('`')}") from error
 
 
-def simulated_stance(one: StudiedStance) -> LimbInSocket | str:
+def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
     """A stance along the limb's motion, or why there is none; runs in a process of its own."""
     try:
-        found = simulated(one.walk, one.asked)
+        limb = simulated(one.walk, one.asked)
+        if not limb.stance.on.any():
+            return "the foot never touches the floor"
+        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
     except InputError as error:
         return error.what
-    return found if found.stance.on.any() else "the foot never touches the floor"
 
 
 def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
@@ -206,8 +224,12 @@ def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) -> pd.DataFrame:
-    """One row for each stance: its length, peaks, how far it stands out, and what is seen in it."""
+def trials_table(
+    stances: Sequence[JudgedStance], odd: Mapping[str, Oddness], bands: Mapping[str, MarkerBand]
+) -> pd.DataFrame:
+    """One row for each stance: its length, peaks, how far it stands out, what is seen in it, and with draws of the
+    markers' errors how far these move it.
+    """
     rows = []
     for one in stances:
         own = odd.get(one.name, Oddness(float("nan"), float("nan")))
@@ -228,6 +250,7 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
                 "most ankle moment [N m/kg]": float(np.nanmax(model)),
                 "most ankle moment on the plate [N m/kg]": float(seen.max()),
                 "resultant rmse [-]": one.errors.table["resultant"][1],
+                **(moved_by_markers(one, bands[one.name]) if bands else {}),
                 "off by the study's rule [-]": own.by_study,
                 "off by the median [-]": own.by_median,
                 "outlier": own.outlier,
@@ -235,6 +258,18 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
             }
         )
     return pd.DataFrame(rows)
+
+
+def moved_by_markers(one: JudgedStance, band: MarkerBand) -> dict[str, float]:
+    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it."""
+    s = one.stance
+    weight = s.motion.leg.person.mass * GRAVITY
+    seen = at_times(s.time, one.plate.time, one.plate.force)[:, 1] / weight
+    return {
+        "vertical moved by markers [-]": band.width("vertical", s.on),
+        "centre moved by markers [-]": band.width("cop_ground", s.on),
+        "plate within that [-]": band.inside("vertical", seen, s.on),
+    }
 
 
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:

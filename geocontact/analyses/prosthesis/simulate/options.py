@@ -6,7 +6,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, Spelled, TimeSpan
+from geocontact.analyses.frame.marks import (
+    BodyMass,
+    C3dUnit,
+    Expression,
+    Fraction,
+    Length,
+    PartLength,
+    Requires,
+    Spelled,
+    TimeSpan,
+)
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import (
     FULCRUM,
@@ -16,9 +26,10 @@ from geocontact.analyses.prosthesis.ranges import (
     TURNS,
     require_one_residual,
     require_turns,
+    require_walks,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP, SHIFT
 
 
 @dataclass(frozen=True)
@@ -99,13 +110,30 @@ class ProsthesisSimulateOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6. It has to begin before touch-down.
+
+    Errors of the markers
+    ---------------------
+    walks
+        Draws of the markers' errors, along each of which the stance is simulated again: a band of forces, centre of
+        pressure and ankle moment. A draw takes as long as the stance.
+    marker_error
+        Standard deviation of each coordinate of a marker [mm], half of its variance from frame to frame and half
+        slowly; 0.5 mm by default, which is invented. Skin moves by millimetres.
+    seed
+        Seed of the draws.
+
+    Check of the model
+    ------------------
+    stand_still
+        Simulate 10 s of standing still as well, the other foot under half of the weight: how much of the other half
+        the foot's force misses in the end.
     """
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes stance.csv, errors.csv and curves.csv with a force plate, numbers.csv with the source of every number,
-    coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`), paraview, a figure,
-    report.html (moving foot with forces) and run.json into OUT.
+    Writes stance.csv, errors.csv and curves.csv with a force plate, band.csv with `walks`, numbers.csv with the source
+    of every number, coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`),
+    paraview, a figure, report.html (moving foot with forces) and run.json into OUT.
     """
 
     markers: Path
@@ -135,6 +163,10 @@ class ProsthesisSimulateOptions(Options):
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
+    walks: int | None = None
+    marker_error: Annotated[Length | None, SHIFT, Requires("walks")] = None
+    seed: Annotated[int | None, Requires("walks")] = None
+    stand_still: bool = False
 
     def refuse_impossible(self) -> None:
         """Nothing to scale with, or nothing that stands for the other leg."""
@@ -153,3 +185,4 @@ class ProsthesisSimulateOptions(Options):
         if self.plate is None and self.score != "stance":
             raise InputError("", "`score`", "without a plate nothing is compared", "name the `plate`")
         require_turns(self.socket_turns)
+        require_walks(self.walks)

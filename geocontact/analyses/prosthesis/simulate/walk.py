@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import add_input, reserve, say
+from geocontact.analyses.frame.collector import add_input, collecting, reserve, say
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
@@ -20,7 +22,9 @@ from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band, with_errors
 from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, simulated_walk
+from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -128,6 +132,40 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     if walk.off > MOVING.rms:
         reserve(f"{walk.seen.source}: markers are {1e3 * walk.off:.0f} mm (median) away from the standing leg")
     return walk
+
+
+MARKER_ERROR = 0.5e-3
+"""m; standard deviation of a marker's coordinate by default, as `prosthesis design` has it (invented)."""
+
+
+def band_of(
+    recorded: RecordedWalk,
+    found: Stance,
+    o: ProsthesisSimulateOptions,
+    step: Callable[[], None] = lambda: None,
+) -> MarkerBand | None:
+    """How far errors of the markers move a stance; None where that is not asked for, InputError where it cannot be.
+
+    Every draw goes the whole way: leg by the standing trial, motion by the walking one, simulation. The functional
+    trial has no errors.
+    """
+    if o.walks is None:
+        return None
+    sd = MARKER_ERROR if o.marker_error is None else o.marker_error
+
+    def again(rng: np.random.Generator) -> Stance:
+        standing, seen = (with_errors(each, sd, rng) for each in (recorded.standing, recorded.seen))
+        try:
+            with collecting(Record("prosthesis simulate", {})):
+                walk = walk_of(replace(recorded, standing=standing, seen=seen), o)
+                return simulated(walk, o).stance
+        except InputError as error:
+            raise ArithmeticError(error.what) from error
+
+    try:
+        return marker_band(found, again, o.walks, seed=o.seed or 0, step=step)
+    except ArithmeticError as error:
+        raise InputError(o.markers, "`walks`", str(error), "give a smaller `marker_error`") from error
 
 
 def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
