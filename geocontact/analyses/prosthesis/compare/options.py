@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Length, Requires
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import TURNS, require_turns, require_walks
+from geocontact.analyses.prosthesis.ranges import TURNS, require_one_socket, require_turns, require_walks
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, SHIFT
 
@@ -56,6 +56,9 @@ class ProsthesisCompareOptions(Options):
         Description of another foot (.toml), for persons who have none in the study.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    socket_numbers
+        Stiffness and damping of the socket in a file (.toml), in place of `socket`, for persons who have
+        none in the study.
     score
         What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
         of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
@@ -84,6 +87,7 @@ class ProsthesisCompareOptions(Options):
     seed: Annotated[int | None, Requires("walks")] = None
     foot: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    socket_numbers: Path | None = None
     score: Literal["stance", "study"] = "stance"
     machine_code: bool = False
     workers: int | None = None
@@ -92,5 +96,6 @@ class ProsthesisCompareOptions(Options):
         """No process at all, a negative number of fits."""
         require_turns(self.socket_turns)
         require_walks(self.walks)
+        require_one_socket(self.socket, self.socket_numbers)
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

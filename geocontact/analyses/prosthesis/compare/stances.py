@@ -109,6 +109,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         law=trial.law or person.law,
         ground=trial.ground,
         socket=o.socket,
+        socket_numbers=person.socket or o.socket_numbers,
         score=o.score,
         walks=o.walks,
         marker_error=o.marker_error,
@@ -125,6 +126,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
         residual=RESIDUAL if person.residual is None else person.residual,
         residual_length=person.residual_length,
+        residual_markers=person.residual_markers,
     )
 
 

@@ -25,6 +25,7 @@ from geocontact.analyses.prosthesis.ranges import (
     RESIDUAL,
     TURNS,
     require_one_residual,
+    require_one_socket,
     require_turns,
     require_walks,
 )
@@ -55,6 +56,8 @@ class ProsthesisSimulateOptions(Options):
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
         Length of the residual limb from the knee's centre to its end, in place of a share.
+    residual_markers
+        Two markers of the standing trial at the residual limb's ends, such as RKNE,REND, in place of a length.
     functional
         Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
 
@@ -71,6 +74,8 @@ class ProsthesisSimulateOptions(Options):
         and pitch of the foot relative to its standing trial, where that is `static`.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    socket_numbers
+        Stiffness and damping of the socket in a file (.toml), in place of `socket`.
 
     The ground
     ----------
@@ -144,12 +149,14 @@ class ProsthesisSimulateOptions(Options):
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
+    residual_markers: str | None = None
     functional: Path | None = None
     foot: Path | None = None
     setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    socket_numbers: Path | None = None
     ground: Expression | None = None
     plates: Path | None = None
     other_plate: str | None = None
@@ -170,7 +177,7 @@ class ProsthesisSimulateOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nothing to scale with, or nothing that stands for the other leg."""
-        require_one_residual(self.residual, self.residual_length)
+        require_one_residual(self.residual, self.residual_length, self.residual_markers)
         if self.static is None:
             what = "no standing trial: the leg's lengths and the markers' places are not known"
             raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")
@@ -186,3 +193,4 @@ class ProsthesisSimulateOptions(Options):
             raise InputError("", "`score`", "without a plate nothing is compared", "name the `plate`")
         require_turns(self.socket_turns)
         require_walks(self.walks)
+        require_one_socket(self.socket, self.socket_numbers)

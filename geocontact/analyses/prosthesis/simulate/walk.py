@@ -14,7 +14,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.scores import ROOM, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
@@ -30,6 +30,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.mocap.force_plates import plate_named
+from geocontact.io.recordings.socket_description import read_socket
 from geocontact.loads.ground import Stairs
 
 
@@ -69,6 +70,9 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     foot = foot_of(o.foot)
     fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
     foot = foot_with_law(foot, o.law)
+    if o.socket_numbers is not None:
+        bushing_of(o)
+        add_input("`socket_numbers`", o.socket_numbers)
     standing = lab.markers("`static`", cast(Path, o.static))
     moving = None
     if o.functional is None:
@@ -124,7 +128,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
-        residual=o.residual_length,
+        residual=residual_of(recorded.standing, o.residual_length, o.residual_markers),
         around=SCORES[o.score].around + ROOM,
     )
     if walk.hip is not None:
@@ -169,7 +173,9 @@ def band_of(
 
 
 def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
-    """Socket on the residual limb."""
+    """Socket on the residual limb; InputError for a file that describes none."""
+    if o.socket_numbers is not None:
+        return read_socket(o.socket_numbers).bushing
     return SOCKET if o.socket == "as_meant" else PRINTED
 
 
