@@ -97,7 +97,7 @@ FILES = (
     ),
     DescribedFile(
         "A socket on a residual limb",
-        "`--socket-numbers` of `geocontact prosthesis simulate` and `compare`; its axes are the keel's",
+        "`--socket-numbers` of `geocontact prosthesis simulate` and `compare`",
         SocketDescription,
         {},
     ),

@@ -53,7 +53,7 @@ class Scoring:
 
 OVER_STANCE = Scoring()
 AS_STUDY = Scoring(0.25, 6.0)
-"""As the study has it (its sec. 2.5): swing, where both forces are nothing, and the filter make errors smaller."""
+"""The study's scoring (its sec. 2.5): swing, where both forces are nothing, and the filter make errors smaller."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -87,11 +87,6 @@ class Description:
 WORD = ("number",)
 FREE = ("number", "text", "bool")
 SITES = ("text",)
-SOCKET_NUMBERS = """turn_stiffness = { value = 10, unit = "N m/deg" }
-turn_damping = { value = 5, unit = "N m s/deg" }
-shift_stiffness = { value = 20, unit = "N/mm" }
-shift_damping = { value = 10, unit = "N s/mm" }
-"""
 DESCRIPTIONS: dict[str, Description] = {
     "study": Description(
         cohort,
@@ -209,7 +204,13 @@ end = 2.5
     ),
     "socket": Description(
         read_socket,
-        SOCKET_NUMBERS + "".join(f"[{axis}]\n{SOCKET_NUMBERS}" for axis in "xyz"),
+        """turn_stiffness = { value = 10, unit = "N m/deg" }
+turn_damping = { value = 5, unit = "N m s/deg" }
+shift_stiffness = { value = 20, unit = "N/mm" }
+shift_damping = { value = 10, unit = "N s/mm" }
+piston_stiffness = { value = 35, unit = "N/mm" }
+piston_damping = { value = 10, unit = "N s/mm" }
+""",
         {".* (source|note)": ("number", "bool", "list", "table", "date")},
     ),
     "foot": Description(

@@ -80,7 +80,7 @@ def test_a_limb_between_two_markers_and_a_socket_of_a_file(tmp_path: Path) -> No
     file.write_text(
         'turn_stiffness = { value = 12, unit = "N m/deg" }\nturn_damping = { value = 4, unit = "N m s/deg" }\n'
         'shift_stiffness = { value = 25, unit = "N/mm" }\nshift_damping = { value = 9, unit = "N s/mm" }\n'
-        '[y]\nshift_stiffness = { value = 35, unit = "N/mm" }\n'
+        'piston_stiffness = { value = 35, unit = "N/mm" }\n'
     )
     given = GIVEN | {"residual_markers": "RKNE,RSO3", "socket_numbers": file}
     o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **given)

@@ -30,13 +30,13 @@ GIVEN: dict[str, Any] = {
         ({"plate": "other_force"}, "other_force is named for both feet"),
         ({"plate": "third"}, "no plate 'third'"),
         ({"static": TRIAL / "standing.trc"}, "no marker"),
-        ({}, "no marker"),
+        ({}, "no marker LTH1, LTH2, LTH3"),
         ({"time": (0.1, 0.6)}, "do not cover a whole stance on own_force"),
         ({"residual_markers": "RKNE,REND"}, "no marker REND"),
     ],
 )
 def test_refused(changed: dict[str, Any], words: str) -> None:
-    """The shipped walking trial has the prosthetic side's markers only."""
+    """The walking trial of the stance has the prosthetic side's markers only."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         with pytest.raises(gc.InputError, match=words):
@@ -53,10 +53,10 @@ def test_names_of_a_left_prosthesis_change_sides() -> None:
 @pytest.mark.long
 def test_a_known_walk_by_angles_and_by_torques(tmp_path: Path) -> None:
     """Exact markers and no filter: the force is that of the truth, and its torques hold through single support."""
-    known = known_walk(tmp_path, machine_code=True)
+    known, options = known_walk(tmp_path)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
-        found = gc.prosthesis.walk(tmp_path / "walking.trc", by="torques", **known.options)
+        found = gc.prosthesis.walk(tmp_path / "walking.trc", by="torques", **options)
     walk, weight = found.moved.walk, known.truth.mass * 9.80665
     truth = np.column_stack([np.interp(walk.time, known.walk.time, column) for column in known.walk.force.T])
     assert np.sqrt(np.mean((walk.force - truth) ** 2)) < 0.01 * weight

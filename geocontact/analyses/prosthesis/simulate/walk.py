@@ -30,7 +30,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.mocap.force_plates import plate_named
-from geocontact.io.recordings.socket_description import read_socket
+from geocontact.io.recordings.socket_description import SocketDescription, read_socket
 from geocontact.loads.ground import Stairs
 
 
@@ -175,8 +175,16 @@ def band_of(
 def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
     """Socket on the residual limb; InputError for a file that describes none."""
     if o.socket_numbers is not None:
-        return read_socket(o.socket_numbers).bushing
+        return _bushing(read_socket(o.socket_numbers))
     return SOCKET if o.socket == "as_meant" else PRINTED
+
+
+def _bushing(of: SocketDescription) -> Bushing:
+    """Six directions of a described socket, turns first; y is along the limb."""
+    k, c, m, d = of.turn_stiffness, of.turn_damping, of.shift_stiffness, of.shift_damping
+    along = m if of.piston_stiffness is None else of.piston_stiffness
+    damped = d if of.piston_damping is None else of.piston_damping
+    return Bushing((k, k, k, m, along, m), (c, c, c, d, damped, d))
 
 
 def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:

@@ -1,10 +1,12 @@
 """Both legs in motion: `geocontact prosthesis walk`, `gc.prosthesis.walk`.
 
 >>> import geocontact as gc
->>> from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
->>> files = {"static": "standing.trc", "plates": "plates.mot", "plate": "own", "other_plate": "other"}
->>> ProsthesisWalkOptions("walking.trc", mass=77.3, **files).by
-'angles'
+>>> stood = "meshes/amputee_P1/"
+>>> person = {"static": stood + "standing.trc", "functional": stood + "functional.trc", "mass": 77.3, "height": 1.81}
+>>> plates = {"plates": stood + "plates.mot", "plate": "own_force", "other_plate": "other_force"}
+>>> result = gc.prosthesis.walk(stood + "walking.trc", **person, **plates)
+>>> print(result.sentences[0])
+both legs from … to … s along recorded angles: force of the prosthetic foot within …% BW of its plate (R² …)
 """
 
 from __future__ import annotations

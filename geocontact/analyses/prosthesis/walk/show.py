@@ -19,7 +19,7 @@ from geocontact.view.page.content import Page, Section, Words
 from geocontact.view.page.tables import frame_table
 
 FRAMES = 120
-"""Of the moving skeleton, at most."""
+"""Most frames of the moving skeleton."""
 WORDS = [
     "Angles of hips, knees, intact ankle and toes are as recorded, filtered; the pelvis moves forward and up freely.",
     "Markers on the socket move with it against the limb: that motion is in the knee's angle and again in the bushing.",
