@@ -149,17 +149,21 @@ def standing_trials(
     return StandingTrials(truth, _standing(truth, errors, rng), _functional(truth, errors, rng))
 
 
-def _standing(truth: Amputee, errors: float, rng: np.random.Generator) -> MarkerTrajectories:
-    """Upright, both soles on the floor, with the markers that only a standing trial has."""
+def fully_marked(truth: Amputee) -> Amputee:
+    """With the markers that only a standing trial needs as well."""
     places = marker_places(truth.prosthetic, truth.foot.keel.length) | intact_places(truth.intact)
     prosthetic = {body: places[body] for body in BODIES}
     others = {body: places[body] for body in INTACT_BODIES}
-    whole = replace(
+    return replace(
         truth,
         prosthetic=replace(truth.prosthetic, markers=_markers(prosthetic)),
         intact=replace(truth.intact, markers=_markers(others)),
     )
-    model = amputee_tree(whole, held=True)
+
+
+def _standing(truth: Amputee, errors: float, rng: np.random.Generator) -> MarkerTrajectories:
+    """Upright, both soles on the floor, with the markers that only a standing trial has."""
+    model = amputee_tree(fully_marked(truth), held=True)
     still = model.marker_places(standing_values(model))[0]
     time = np.arange(STANDING_FRAMES) / FRAME_RATE
     seen = still + errors * rng.normal(0.0, CAMERA_NOISE, (len(time), *still.shape))

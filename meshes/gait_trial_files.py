@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from geocontact.io.mocap.trc import trc_text
 from meshes.amputee import StandingTrials
+from meshes.amputee_trial import AmputeeTrial, plates_of
 from meshes.gait_trial import GaitTrial
 
 DECIMALS = 2
@@ -40,6 +41,14 @@ def amputee_files(name: str, trials: StandingTrials) -> dict[str, str]:
         f"{stem}.trc": trc_text(f"synthetic {name}", seen, DECIMALS)
         for stem, seen in (("standing", trials.standing), ("functional", trials.functional))
     }
+
+
+def amputee_walk_files(name: str, trial: AmputeeTrial) -> dict[str, str]:
+    """Text of `walking.trc` [mm] and `plates.mot` [N, m] of both legs, by name."""
+    columns = plates_of(trial)
+    head = (f"synthetic {name}", "version=1", f"nRows={len(columns['time'])}", f"nColumns={len(columns)}")
+    text = "\n".join((*head, "inDegrees=no", "endheader", _rows(columns, "\t", 4)))
+    return {"walking.trc": trc_text(f"synthetic {name}", trial.walking, DECIMALS), "plates.mot": text}
 
 
 def _plates(trial: GaitTrial) -> str:

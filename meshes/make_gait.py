@@ -11,10 +11,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from meshes.amputee import standing_trials
+from meshes.amputee import standing_trials, true_amputee
+from meshes.amputee_trial import amputee_trial
 from meshes.gait_persons import PARTICIPANTS
 from meshes.gait_trial import synthetic_trial
-from meshes.gait_trial_files import amputee_files, trial_files
+from meshes.gait_trial_files import amputee_files, amputee_walk_files, trial_files
 
 PERSON = 0
 RECORDED = ("walking.trc", "plates.mot")
@@ -40,9 +41,17 @@ def standing_files() -> dict[str, bytes]:
     return {f"amputee_{person.name}/{name}": text.encode("ascii") for name, text in texts.items()}
 
 
+def walking_files() -> dict[str, bytes]:
+    """The same participant who walks, with both legs, by name."""
+    person = PARTICIPANTS[PERSON]
+    truth = true_amputee(person, vsf_foot(), fulcrum_of("medium", "pinned"))
+    texts = amputee_walk_files(person.name, amputee_trial(truth, "medium", machine_code=False))
+    return {f"amputee_{person.name}/{name}": text.encode("ascii") for name, text in texts.items()}
+
+
 def main() -> None:
     """Write the files beside this script."""
-    for name, data in (gait_files() | standing_files()).items():
+    for name, data in (gait_files() | standing_files() | walking_files()).items():
         path = Path(__file__).parent / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)

@@ -24,6 +24,7 @@ from geocontact.io.recordings.gait_study import GaitStudy
 from geocontact.io.recordings.overhead_study import OverheadStudy
 from geocontact.io.recordings.population import PopulationDescription, QuantityEntry
 from geocontact.io.recordings.shoulder_device import DeviceDescription
+from geocontact.io.recordings.socket_description import SocketDescription
 from geocontact.io.recordings.standing_study import StandingStudy
 from geocontact.study.description import StudyFile
 
@@ -92,6 +93,12 @@ FILES = (
         "A prosthetic foot",
         "`geocontact prosthesis keel`, `--foot` of `geocontact prosthesis …` ([guide](../how-to/prosthesis.md))",
         FootDescription,
+        {},
+    ),
+    DescribedFile(
+        "A socket on a residual limb",
+        "`--socket-numbers` of `geocontact prosthesis simulate` and `compare`",
+        SocketDescription,
         {},
     ),
     DescribedFile(

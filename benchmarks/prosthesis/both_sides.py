@@ -19,6 +19,7 @@ import numpy as np
 
 from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
+from geocontact.below_knee_prosthesis.both_sides.recorded_steps import played_back
 from geocontact.below_knee_prosthesis.both_sides.walk import (
     FREE,
     GivenWalk,
@@ -32,7 +33,6 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
     walk_by_forces,
 )
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.dynamics.simulate import rosenbrock_step
 from meshes.amputee import true_amputee
@@ -46,8 +46,8 @@ SPANS = {
     True: {"as the intact foot leaves": (0.16, 0.68), "from double support on": (-0.05, 0.76)},
 }
 """s, at medium stiffness, without and with spheres under the intact foot."""
-EVERY, AFTER = 0.04, 0.06
-"""s; of a row, and from when on the growth is fitted."""
+EVERY = 0.04
+"""s; of a row."""
 LOST = 90.0
 """deg; beyond it nothing is told."""
 
@@ -80,7 +80,6 @@ def sizes(truth: Amputee) -> dict[str, dict[str, float]]:
 def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, spheres: bool) -> list[dict[str, Any]]:
     """How far the walk by forces is from that by angles, printed."""
     told = []
-    weight = truth.mass * GRAVITY
     before = time.process_time()
     walk = walk_by_angles(truth, given, np.arange(-0.08, 0.76, every), intact_on_spheres=spheres, tolerance=tolerance)
     spent = time.process_time() - before
@@ -88,9 +87,6 @@ def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, sphe
     fast = accelerations_by_angles(truth, given, walk, intact_on_spheres=spheres)
     forces = driving_forces(truth, walk, fast, ground, intact_on_spheres=spheres)
     print(f"samples of {1e3 * every:g} ms, tolerance {tolerance:g}: by angles {walk.steps} steps in {spent:.2f} s CPU")
-    turns = [k for k, name in enumerate(walk.names) if not name.startswith(("pelvis_tx", "pelvis_ty", "pelvis_tz"))]
-    turns = [k for k in turns if not walk.names[k].startswith("socket_t")]
-    shifts = [k for k in range(len(walk.names)) if k not in turns]
     stepper = driven_stepper(truth, intact_on_spheres=spheres)
     for label, (start, stop) in SPANS[spheres].items():
         on = (walk.time >= start - 1e-9) & (walk.time <= stop + 1e-9)
@@ -100,14 +96,9 @@ def again(truth: Amputee, given: GivenWalk, every: float, tolerance: float, sphe
             truth, stepper, part, part.time, ground[on], forces[on], intact_on_spheres=spheres, tolerance=tolerance
         )
         spent = time.process_time() - before
-        off = np.abs(other.q - part.q)
-        turn = np.maximum.accumulate(np.degrees(off[:, turns].max(axis=1)))
-        shift = np.maximum.accumulate(1e3 * off[:, shifts].max(axis=1))
-        force = np.maximum.accumulate(np.linalg.norm(other.force - part.force, axis=1) / weight)
-        since = part.time - part.time[0]
-        fitted = (since > AFTER) & (turn < 5.0) & (turn > 0.0)
-        rate = np.polyfit(since[fitted], np.log(turn[fitted]), 1)[0] if fitted.sum() > 5 else np.nan
-        held = since[(turn <= 0.5) & (force <= 0.02)].max(initial=0.0)
+        found = played_back(part, other, truth.mass)
+        since, turn, shift, force = found.since, found.turn, found.shift, found.force
+        rate, held = found.growth, found.held
         print(
             f"  {label}: {other.steps} steps, {1e6 * spent / other.steps:.0f} us CPU each, growth {rate:.0f}/s, "
             f"within 0.5 deg and 2 % BW for {held:.2f} s of {since[-1]:.2f} s"

@@ -23,10 +23,10 @@ from benchmarks.machine import write_results
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_foot
-from geocontact.below_knee_prosthesis.leg import Leg
-from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, RECORDED, LegMotion
-from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.simulate import Stance, simulate_stance
 from geocontact.below_knee_prosthesis.stance_model import FLOOR
+from geocontact.below_knee_prosthesis.standing_still import LASTING, standing_still
 from geocontact.geometry.shapes import HalfSpace
 from meshes.gait_course import GaitCourse, course
 from meshes.gait_persons import PARTICIPANTS, STANCE, true_leg
@@ -36,8 +36,6 @@ SOLES = {24: (1, 2), 48: (2, 2), 96: (2, 4), 192: (4, 4)}
 LANDING, RISE = 0.06, 1
 """s from touch-down in which the overshoot is sought; samples of 2 ms over which a rise is."""
 TOLERANCE = 1e-5
-STANDING, LOADED = 10.0, 0.5
-"""s, and share of the weight that the other foot carries."""
 
 
 @dataclass(frozen=True)
@@ -101,29 +99,14 @@ def _beside(count: int, stance: Stance, reference: Stance, seconds: float) -> So
     return SoleOutcome(count, rms[0], rms[1], first[0] - first[1], rise, stance.found.steps, seconds)
 
 
-def standing_motion(leg: Leg, below: float, lasting: float) -> LegMotion:
-    """Upright with a flat foot whose sole just touches the floor."""
-    values = np.zeros(len(RECORDED))
-    values[RECORDED.index("pelvis_ty")] = below - (leg.keel[1] - leg.thigh + leg.hip[1])
-    time = np.linspace(0.0, lasting, 41)
-    return LegMotion(leg, time, np.repeat(values[None], len(time), axis=0))
-
-
 def static_share(
-    person: int, setting: str, *, lasting: float = STANDING, machine_code: bool, ground: HalfSpace = FLOOR
+    person: int, setting: str, *, lasting: float = LASTING, machine_code: bool, ground: HalfSpace = FLOOR
 ) -> tuple[float, float, int]:
     """Load that is missing at the end over body weight, how far the foot has slid [m], and steps."""
-    below = sole_numbers()["below"].value
-    leg = true_leg(PARTICIPANTS[person], below)
-    motion = standing_motion(leg, below, lasting)
-    weight = leg.person.mass * GRAVITY
-    push = Push(motion.time, np.repeat([[0.0, LOADED * weight, 0.0]], len(motion.time), axis=0))
+    leg = true_leg(PARTICIPANTS[person], sole_numbers()["below"].value)
     fulcrum = fulcrum_of(setting, "pinned")
-    stance = simulate_stance(
-        motion, vsf_foot(), fulcrum, push, (0.0, lasting), ground=ground, tolerance=TOLERANCE, machine_code=machine_code
-    )
-    slid = float(np.linalg.norm((stance.poses.translation[-1] - stance.poses.translation[0])[::2]))
-    return float(stance.force[-1, 1] / weight - (1.0 - LOADED)), slid, stance.found.steps
+    found = standing_still(leg, vsf_foot(), fulcrum, lasting=lasting, ground=ground, machine_code=machine_code)
+    return found.missing, found.slid, found.stance.found.steps
 
 
 def main() -> None:

@@ -173,6 +173,7 @@ ENTRIES = (
     Entry("prosthesis keel", "prosthesis.keel", "ProsthesisKeelOptions", "result:keel"),
     Entry("prosthesis scale", "prosthesis.scale", "ProsthesisScaleOptions", "result:scale"),
     Entry("prosthesis simulate", "prosthesis.simulate", "ProsthesisSimulateOptions", "result:simulate"),
+    Entry("prosthesis walk", "prosthesis.walk", "ProsthesisWalkOptions", "result:walk"),
     Entry("scale", "motion.scale", "ScaleOptions", "result:scale"),
     Entry("shoulder simulate", "shoulder.simulate", "ShoulderSimulateOptions", "result:simulate"),
     Entry("shoulder compare", "shoulder.compare", "ShoulderCompareOptions", "result:compare"),

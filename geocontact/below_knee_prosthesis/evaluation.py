@@ -35,6 +35,27 @@ SAMPLES = 101
 """Over the stance that the plate saw."""
 
 
+@dataclass(frozen=True)
+class Scoring:
+    """What of a stance is compared with its plate.
+
+    Parameters
+    ----------
+    around
+        Swing before touch-down and after toe-off that is compared as well [s].
+    centre_cutoff
+        Zero-lag low-pass of both centres of pressure over the stance [Hz]; None for none.
+    """
+
+    around: float = 0.0
+    centre_cutoff: float | None = None
+
+
+OVER_STANCE = Scoring()
+AS_STUDY = Scoring(0.25, 6.0)
+"""The study's scoring (its sec. 2.5): swing, where both forces are nothing, and the filter make errors smaller."""
+
+
 @dataclass(frozen=True, eq=False)
 class PlateStance:
     """What a plate saw of a foot, in the frame of a person with a right prosthesis.
@@ -65,7 +86,7 @@ class StanceErrors:
     Parameters
     ----------
     share
-        Of the plate's stance, 0 to 1.
+        Of the plate's stance, 0 to 1; less and more with swing around it.
     curves
         Simulated and measured by name: forces over body weight, impulse [s], centre of pressure (share of the foot).
         What was not simulated is NaN.
@@ -86,10 +107,11 @@ class StanceErrors:
     @property
     def simulated(self) -> float:
         """Share of the plate's stance that was simulated, 0 to 1."""
-        return float(np.isfinite(self.curves["resultant"][0]).mean())
+        inside = (self.share >= 0.0) & (self.share <= 1.0)
+        return float(np.isfinite(self.curves["resultant"][0][inside]).mean())
 
 
-def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
+def stance_errors(found: Stance, plate: PlateStance, scoring: Scoring = OVER_STANCE) -> StanceErrors:
     """Over the plate's stance, as far as it was simulated; ValueError where the plate has none.
 
     Forces of both pass the same zero-lag low-pass, each at its own rate and over all of its recording.
@@ -98,7 +120,8 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
     span = longest_stance(plate.time, plate.force[:, 1])
     if span is None:
         raise ValueError(f"the plate never carries {GATE:g} N")
-    share = np.linspace(0.0, 1.0, SAMPLES)
+    beside = scoring.around / (span[1] - span[0])
+    share = np.linspace(-beside, 1.0 + beside, SAMPLES)
     time = span[0] + share * (span[1] - span[0])
     steps = [float(np.median(np.diff(each))) for each in (found.time, plate.time)]
     cutoff = min(CUTOFF, *(SLOWEST / step for step in steps))
@@ -111,6 +134,8 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
     poses, length = found.poses, found.foot.keel.length
     across = np.column_stack([np.interp(found.time, plate.time, column) for column in plate.centre.T])
     along = [share_of_foot(poses, length, across), *(found.along_foot(point) for point in POINTS)]
+    if scoring.centre_cutoff is not None:
+        along = [_smooth(each, steps[0], scoring.centre_cutoff) for each in along]
     seen_centre, *centres = simulated_at(time, found.time, np.column_stack(along)).T
     for point, centre in zip(POINTS, centres, strict=True):
         curves[f"cop_{point}"] = (centre, seen_centre)
@@ -121,6 +146,17 @@ def stance_errors(found: Stance, plate: PlateStance) -> StanceErrors:
     own_span = longest_stance(found.time, found.force[:, 1])
     lasting = np.nan if own_span is None else own_span[1] - own_span[0]
     return StanceErrors(share, curves, table, (float(lasting), float(span[1] - span[0])), float(span[0]))
+
+
+def _smooth(values: Float[np.ndarray, " t"], step: float, cutoff: float) -> Float[np.ndarray, " t"]:
+    """The longest run of known samples through a zero-lag low-pass; the others are NaN."""
+    edges = np.diff(np.concatenate([[0], np.isfinite(values).astype(int), [0]]))
+    runs = list(zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True))
+    found = np.full_like(values, np.nan)
+    if runs:
+        first, behind = max(runs, key=lambda each: each[1] - each[0])
+        found[first:behind] = zero_lag(values[first:behind], step, cutoff)
+    return found
 
 
 def _impulses(
@@ -205,12 +241,19 @@ class JudgedStance:
 
 
 def judged(
-    name: str, person: str, setting: str, stance: Stance, plate: PlateStance, *, calibrated: bool = False
+    name: str,
+    person: str,
+    setting: str,
+    stance: Stance,
+    plate: PlateStance,
+    *,
+    calibrated: bool = False,
+    scoring: Scoring = OVER_STANCE,
 ) -> JudgedStance:
     """A stance with its errors; ValueError where the plate has none."""
-    errors = stance_errors(stance, plate)
+    errors = stance_errors(stance, plate, scoring)
     moments = _ankle_moments(stance, plate, errors)
-    step = errors.stance[1] / (len(errors.share) - 1)
+    step = errors.stance[1] * float(errors.share[1] - errors.share[0])
     told = agreement(*moments, step)
     more = replace(
         errors,

@@ -12,7 +12,7 @@ from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, Bushing
 from geocontact.contact.bushing import SOCKET as AS_MEANT
-from geocontact.data.parameter import Number
+from geocontact.data.parameter import Number, Source
 
 GIVEN = "as the law's file gives it"
 STATED = Number(0.0, "option", "as the foot's file states it")
@@ -27,16 +27,21 @@ def foot_numbers(foot: VariableStiffnessFoot, fulcrum: float) -> dict[str, Numbe
     return own | {f"sole {name}": number for name, number in _sole(foot)}
 
 
+OF_FILE = "as the socket's file states it"
+"""Note of the numbers of a socket that has its own."""
+
+
 def socket_numbers(bushing: Bushing) -> dict[str, Number]:
     """Stiffness and damping along the socket's six directions [N m/rad, N/m; N m s/rad, N s/m]."""
     note = {AS_MEANT: "sec. 2.1, turns with N m in place of N mm", PRINTED: "sec. 2.1, as printed"}.get(
-        bushing, "given"
+        bushing, OF_FILE
     )
     found = {}
     for kind, values in (("stiffness", bushing.stiffness), ("damping", bushing.damping)):
         for name, value in zip(SOCKET, values, strict=True):
             turned = bushing == AS_MEANT and "_r" in name
-            found[f"{name} {kind}"] = Number(value, "derived" if turned else "paper", note)
+            source: Source = "option" if note == OF_FILE else "derived" if turned else "paper"
+            found[f"{name} {kind}"] = Number(value, source, note)
     return found
 
 

@@ -83,6 +83,8 @@ class Walk:
         Centre by a functional trial, in the pelvis' frame; None where it is that of the regression.
     cutoff, gap_limit
         That the motion was fitted with [Hz, s].
+    around
+        Swing around the stance on the plate that is simulated at least [s].
     """
 
     leg: Leg
@@ -97,6 +99,7 @@ class Walk:
     hip: FunctionalCentre | None = None
     cutoff: float | None = CUTOFF
     gap_limit: float = GAP
+    around: float = 0.0
 
     @property
     def off(self) -> float:
@@ -109,7 +112,10 @@ class Walk:
         time = self.walked.motion.time
         span = (float(time[INSIDE]), float(time[-1 - INSIDE]))
         seen = None if self.plate is None else longest_stance(self.plate.time, self.plate.force[:, 1])
-        return span if seen is None else (max(span[0], seen[0] - BEFORE), min(span[1], seen[1] + AFTER))
+        if seen is None:
+            return span
+        before, after = max(BEFORE, self.around), max(AFTER, self.around)
+        return (max(span[0], seen[0] - before), min(span[1], seen[1] + after))
 
 
 def fitted_walk(
@@ -127,6 +133,7 @@ def fitted_walk(
     cutoff: float | None = CUTOFF,
     gap_limit: float = GAP,
     residual: float | None = None,
+    around: float = 0.0,
 ) -> Walk:
     """The leg and the keel's place by a standing trial, its motion by a walking one.
 
@@ -150,6 +157,8 @@ def fitted_walk(
         Longest gap that is bridged [s].
     residual
         Length of the residual limb [m]; by default the person's share of the shank.
+    around
+        Swing around the stance on the plate that is simulated at least [s].
 
     InputError where markers are missing or do not fit the standing ones, and where a plate is not the person's, not
     under the foot, or on another clock.
@@ -165,7 +174,7 @@ def fitted_walk(
         _require_own(plate, fit.motion, foot, ground)
     cluster = SeenFoot(seen.time, keel_poses(seen, leg, seen.time, FOOT_CUTOFF, gap_limit))
     push = Push(other.time, other.force)
-    return Walk(leg, fit, ground, foot, fulcrum, push, plate, cluster, seen, hip, cutoff, gap_limit)
+    return Walk(leg, fit, ground, foot, fulcrum, push, plate, cluster, seen, hip, cutoff, gap_limit, around)
 
 
 def with_residual(leg: Leg, length: float) -> Leg:

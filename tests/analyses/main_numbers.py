@@ -271,6 +271,11 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "ankle_moment": column("stance.csv", "ankle moment [N m]"),
         "stored_energy": column("stance.csv", "stored [J]"),
     },
+    "prosthesis.walk": {
+        "time": column("walk.csv", "time [s]"),
+        "force": columns("walk.csv", "prosthesis force_{} [N]", "xyz"),
+        "moments": by_column("walk.csv", "{} moment [N m]"),
+    },
     "scale": {
         "rms": entry("scale.json", "static_rms_mm", factor=MM),
         "distances": entries("scale.json", "markers_mm", each=(), factor=MM),

@@ -27,6 +27,7 @@ READ_C3D = {
     "prosthesis.design": "ProsthesisDesignOptions",
     "prosthesis.scale": "ProsthesisScaleOptions",
     "prosthesis.simulate": "ProsthesisSimulateOptions",
+    "prosthesis.walk": "ProsthesisWalkOptions",
     "shoulder.optimise": "ShoulderOptimiseOptions",
     "shoulder.simulate": "ShoulderSimulateOptions",
     "shoulder.study": "StudyOptions",

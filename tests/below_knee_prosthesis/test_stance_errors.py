@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from geocontact.below_knee_prosthesis.evaluation import PlateStance, judged, reasons, stance_errors
+from geocontact.below_knee_prosthesis.evaluation import AS_STUDY, PlateStance, judged, reasons, stance_errors
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from tests.below_knee_prosthesis.stances import a_stance
 
@@ -83,3 +83,40 @@ def test_a_simulation_that_begins_late_is_compared_from_there() -> None:
     first = int(np.argmax(np.isfinite(model)))
     assert model[first] == measured[first] == 0.0
     assert found.table["impulse"][1] < 0.002
+
+
+def test_scored_as_the_study_by_hand() -> None:
+    """A force that is a tenth too large, with 0.25 s of swing: by hand, and less than over the stance."""
+    own, seen = np.arange(-0.2, 1.1, 0.002), np.arange(-0.3, 1.3, 0.002)
+    stance, plate = a_stance(own, 1.1 * walked(own)), plate_of(seen)
+    alone, padded = stance_errors(stance, plate), stance_errors(stance, plate, AS_STUDY)
+    start, lasting = padded.start, padded.stance[1]
+    times = start + padded.share * lasting
+    assert times[[0, -1]] == pytest.approx([start - 0.25, start + lasting + 0.25])
+    inside = (padded.share > 0.0) & (padded.share < 1.0)
+    assert inside.mean() == pytest.approx(lasting / (lasting + 0.5), abs=0.02)
+    model, measured = padded.curves["vertical"]
+    known = np.isfinite(model)
+    off = np.sqrt(np.mean((model - measured)[known] ** 2))
+    assert padded.table["vertical"][1] == pytest.approx(off, rel=1e-12)
+    assert padded.table["vertical"][1] < 0.9 * alone.table["vertical"][1]
+    assert np.abs(measured[~inside]).max() < 0.02
+    assert padded.simulated == 1.0
+
+
+def test_both_centres_pass_six_hertz_over_the_stance() -> None:
+    """A centre that jumps every 20 ms by a tenth of the foot: filtered, it is on its course."""
+    own, seen = np.arange(0.0, 0.95, 0.002), np.arange(-0.2, 1.2, 0.002)
+    plate = plate_of(seen)
+    jumping = plate.centre + 0.02 * np.sign(np.sin(2.0 * np.pi * 25.0 * seen))[:, None] * [1.0, 0.0, 0.0]
+    rough = replace(plate, centre=jumping)
+    found = {
+        name: stance_errors(a_stance(own, walked(own)), one, AS_STUDY) for name, one in (("a", plate), ("b", rough))
+    }
+    raw = stance_errors(a_stance(own, walked(own)), rough)
+    smooth, course = (found[name].curves["cop_ground"][1] for name in "ba")
+    both = np.isfinite(smooth) & np.isfinite(course)
+    inner = both & (found["a"].share > 0.1) & (found["a"].share < 0.9)
+    assert np.abs(smooth - course)[inner].max() < 0.01  # 0.087 of the foot before the filter
+    assert np.nanmax(np.abs(np.diff(raw.curves["cop_ground"][1]))) > 0.1
+    assert not both[(found["a"].share < 0.0) | (found["a"].share > 1.0)].any()

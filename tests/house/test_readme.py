@@ -23,6 +23,7 @@ NOT_SHOWN = {
     "gap benchmark": "made for those who change the diagnosis",
     "gap gather": "needs recordings of several laboratories' devices",
     "prosthesis compare": "needs a study file of three settings: its how-to makes one",
+    "prosthesis walk": "its page moves as that of `prosthesis simulate`",
     "scale": "its page is that of `prosthesis scale`",
     "shoulder study": "lasts minutes",
 }

@@ -30,6 +30,7 @@ from geocontact.io.recordings.load_cells import read_regression
 from geocontact.io.recordings.overhead_study import read_overhead_study
 from geocontact.io.recordings.population import read_population
 from geocontact.io.recordings.shoulder_device import read_device_file, read_person_file
+from geocontact.io.recordings.socket_description import read_socket
 from geocontact.io.recordings.spheres import read_law
 from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.study.address import as_typed, options_of
@@ -201,6 +202,17 @@ end = 2.5
             ".* (source|note)": ("number", "bool", "list", "table", "date"),
         },
     ),
+    "socket": Description(
+        read_socket,
+        """turn_stiffness = { value = 10, unit = "N m/deg" }
+turn_damping = { value = 5, unit = "N m s/deg" }
+shift_stiffness = { value = 20, unit = "N/mm" }
+shift_damping = { value = 10, unit = "N s/mm" }
+piston_stiffness = { value = 35, unit = "N/mm" }
+piston_damping = { value = 10, unit = "N s/mm" }
+""",
+        {".* (source|note)": ("number", "bool", "list", "table", "date")},
+    ),
     "foot": Description(
         read_foot_description,
         """name = "bench"
@@ -273,6 +285,8 @@ side = "right"
 sex = "male"
 residual = { value = 45, unit = "%" }
 residual_length = { value = 150, unit = "mm" }
+residual_markers = "RKNE,RSO3"
+socket = "a.csv"
 foot = "a.csv"
 functional = "a.csv"
 law = "a.csv"
@@ -295,7 +309,10 @@ plates = "a.csv"
 plate = "own"
 other_plate = 2
 """,
-        {r"trials \d+ (name|plate|other_plate|ground|setting)": ("number", "text")},
+        {
+            r"trials \d+ (name|plate|other_plate|ground|setting)": ("number", "text"),
+            r"persons \w+ residual_markers": ("number", "text"),
+        },
     ),
     "overhead": Description(
         read_overhead_study,

@@ -6,5 +6,6 @@ from geocontact.analyses.prosthesis.design.result import design
 from geocontact.analyses.prosthesis.keel.result import keel
 from geocontact.analyses.prosthesis.scale.result import scale
 from geocontact.analyses.prosthesis.simulate.result import simulate
+from geocontact.analyses.prosthesis.walk.result import walk
 
-__all__ = ["calibrate", "compare", "design", "keel", "scale", "simulate"]
+__all__ = ["calibrate", "compare", "design", "keel", "scale", "simulate", "walk"]

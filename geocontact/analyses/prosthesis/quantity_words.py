@@ -11,6 +11,7 @@ NAMES = {
     "cop_ground": "centre of pressure",
     "cop_sphere": "centre of pressure, middle of the spheres",
     "ankle_moment": "ankle moment",
+    "stance": "length of the stance",
 }
 """Quantities in words."""
 SAID = ("resultant", "cop_ground", "ankle_moment")

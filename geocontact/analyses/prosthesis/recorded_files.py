@@ -13,6 +13,7 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
+from geocontact.analyses.prosthesis.ranges import LIMB, pair_of
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
@@ -129,6 +130,24 @@ def refuse_gaps(plate: ForcePlate, file: Path) -> None:
         if within and plate.time[behind] - plate.time[first - 1] < SHORTEST_SWING:
             what = f"its force is missing from {plate.time[first]:g} to {plate.time[behind - 1]:g} s, under load"
             raise InputError(file, plate.name, what, "fill the gap, or leave that step out with `time`")
+
+
+def residual_of(standing: MarkerTrajectories, length: float | None, markers: str | None) -> float | None:
+    """Length of the residual limb [m]: the one that is given, or the distance of two markers while standing.
+
+    None where neither is; InputError for markers that are not there or so far apart as no limb is.
+    """
+    if markers is None:
+        return length
+    names = pair_of(markers)
+    missing = [name for name in names if name not in standing.names]
+    if missing:
+        what = f"no marker {', '.join(missing)} in the standing trial"
+        raise InputError(standing.source, "`residual_markers`", what, "name two of its markers")
+    places = [np.nanmedian(standing.of((name,))[:, 0], axis=0) for name in names]
+    found = float(np.linalg.norm(places[0] - places[1]))
+    LIMB.require(found, "`residual_markers`")
+    return found
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

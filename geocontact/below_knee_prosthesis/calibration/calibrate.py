@@ -127,7 +127,7 @@ class SoleCalibration:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Offsets of the foot in each stance, beside its standing trial."""
+        """Offsets of the foot beside each standing trial."""
         return self.knowledge.offsets
 
     @property

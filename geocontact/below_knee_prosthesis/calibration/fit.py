@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -62,14 +63,14 @@ class StanceFit:
     sunk: float
 
 
-def stance_fit(found: SoleCalibration, whole: WholeCalibration | None = None) -> StanceFit:
-    """Fit of the first stance of a calibration; of the one on the whole model where there is one."""
+def stance_fit(found: SoleCalibration, whole: WholeCalibration | None = None, place: int = 0) -> StanceFit:
+    """Fit of one stance of a calibration, the first by default; of the one on the whole model where there is one."""
     residuals = found.residuals
-    stance = residuals.stances[0]
-    motion, slip = residuals.motion(found.at, 0)
-    predicted = residuals.stance(found.at, 0).predicted(found.foot.at(stance.fulcrum), motion)
+    stance = residuals.stances[place]
+    motion, slip = residuals.motion(found.at, place)
+    predicted = residuals.stance(found.at, place).predicted(found.foot.at(stance.fulcrum), motion)
     if whole is not None:
-        one = whole.residuals.whole(whole.at, 0)
+        one = whole.residuals.whole(whole.at, place)
         predicted, slip = one.channels(one.shown(whole.foot)), 0.0 * slip
     step = float(np.median(np.diff(stance.time)))
     model, measured = predicted / stance.weight, stance.measured / stance.weight
@@ -98,25 +99,64 @@ def known_of(found: SoleCalibration | WholeCalibration) -> tuple[KnownNumber, ..
     return *found.knowledge.numbers, *found.knowledge.beside
 
 
-def goodness_of(found: SoleCalibration | WholeCalibration, fit: StanceFit, stance: RecordedStance) -> GoodnessOfFit:
-    """The stance with the numbers found against the plate, the numbers against their bounds, the foot's own limits."""
-    offset, e = found.offsets[0], stance.errors
-    doubts = doubts_of_fit(
-        offset.height / e.standing, offset.pitch / e.pitch, residual_over_noise(found), fit.vertical.rmsd
-    )
+@dataclass(frozen=True, eq=False)
+class FittedStance:
+    """A stance of a calibration and its fit.
+
+    Parameters
+    ----------
+    name
+        What doubts about it begin with; "" where it is the only one.
+    """
+
+    name: str
+    stance: RecordedStance
+    fit: StanceFit
+
+
+def goodness_of(found: SoleCalibration | WholeCalibration, fitted: Sequence[FittedStance]) -> GoodnessOfFit:
+    """Every stance with the numbers found against its plate, the numbers against their bounds, the foot's own limits.
+
+    Parameters
+    ----------
+    fitted
+        Stances in the order of the calibration.
+    """
+    doubts = list[Doubt]()
+    parts = _channels(found, fitted[0].stance)
+    for place, each in enumerate(fitted):
+        channels = dict(zip(CHANNEL_WORDS, parts[place], strict=False))
+        residual = float(np.sqrt(np.mean(np.concatenate(parts[place]) ** 2)))
+        own = [*_doubts_of_stance(found, each, place, residual), *_doubts_of_channels(channels)]
+        doubts += [replace(one, what=f"{each.name}: {one.what}") if each.name else one for one in own]
+    numbers = [each.name for each in found.knowledge.numbers if each.verdict != "unknown"]
+    values = {each.name: each.value for each in found.knowledge.numbers}
+    for bounded in found.residuals.zones.parameters():
+        if bounded.name in numbers:
+            doubts += _on_bound(bounded, values[bounded.name])
+    return GoodnessOfFit(tuple(doubts), (*CHANNEL_WORDS, *numbers))
+
+
+def _doubts_of_stance(
+    found: SoleCalibration | WholeCalibration, one: FittedStance, place: int, residual: float
+) -> list[Doubt]:
+    """Reasons against the fit of one stance, whose residual over its noise has a root mean square."""
+    offset, e, fit = found.offsets[found.residuals.standing[place]], one.stance.errors, one.fit
+    doubts = doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, residual, fit.vertical.rmsd)
     doubts += [*of_r2("vertical force", fit.vertical.r2), *of_r2("centre of pressure", fit.centre.r2)]
-    for name, residual in _channels(found, stance).items():
+    doubts += of_range("a sphere sinks beyond its radius, the foot is too low or the sole too soft, for", fit.sunk)
+    return doubts
+
+
+def _doubts_of_channels(parts: Mapping[str, Float[np.ndarray, " _"]]) -> list[Doubt]:
+    """Channels whose residuals are larger than plate and poses leave."""
+    doubts = []
+    for name, residual in parts.items():
         test = residual_test(residual, 1.0)
         if test.excess > SURE and test.ratio > LARGER:
             what = f"{name}: the residual is {test.ratio:.3g} times what plate and poses leave"
             doubts.append(Doubt(what, test.ratio > TOO_LARGE, test.ratio))
-    numbers = [each.name for each in found.knowledge.numbers if each.verdict != "unknown"]
-    values = {each.name: each.value for each in found.knowledge.numbers}
-    for each in found.residuals.zones.parameters():
-        if each.name in numbers:
-            doubts += _on_bound(each, values[each.name])
-    doubts += of_range("a sphere sinks beyond its radius, the foot is too low or the sole too soft, for", fit.sunk)
-    return GoodnessOfFit(tuple(doubts), (*CHANNEL_WORDS, *numbers))
+    return doubts
 
 
 def _on_bound(each: Parameter, value: float) -> list[Doubt]:
@@ -130,12 +170,14 @@ CHANNEL_WORDS = ("fore-aft force", "vertical force", "sideways force", "centre o
 """What a plate measures, in words, in the order of `CHANNELS`."""
 
 
-def _channels(found: SoleCalibration | WholeCalibration, stance: RecordedStance) -> dict[str, Float[np.ndarray, " _"]]:
-    """Residuals of the first stance over their noise, by channel."""
+def _channels(found: SoleCalibration | WholeCalibration, first: RecordedStance) -> list[list[Float[np.ndarray, " _"]]]:
+    """Residuals over their noise, by stance and channel: those of `CHANNEL_WORDS`, then of the slip."""
     time, order = found.residuals.channel_by_channel()
-    ends = np.flatnonzero(np.diff(time) > PAUSE * float(np.ptp(stance.time)) / 2.0) + 1
+    ends = np.flatnonzero(np.diff(time) > PAUSE * float(np.ptp(first.time)) / 4.0) + 1
     parts = np.split(found.residuals.of_data(found.at)[order], ends)
-    return dict(zip(CHANNEL_WORDS, parts, strict=False))
+    count = len(found.residuals.standing)
+    each = len(parts) // count
+    return [parts[each * k : each * (k + 1)] for k in range(count)]
 
 
 def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[Doubt]:

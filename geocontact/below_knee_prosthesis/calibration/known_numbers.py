@@ -74,7 +74,7 @@ class Knowledge:
     half
         Half the interval of each number's logarithm; infinite where it has no effect.
     beside
-        Height [m] and pitch [rad] of the foot beside its standing trial, stance by stance, where they were sought.
+        Height [m] and pitch [rad] of the foot beside each standing trial, where they were sought.
     beside_sd
         Their standard deviations.
     """
@@ -88,7 +88,7 @@ class Knowledge:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Offsets of the foot in each stance, beside its standing trial."""
+        """Offsets of the foot beside each standing trial."""
         pairs = [(each.value, sd) for each, sd in zip(self.beside, self.beside_sd, strict=True)]
         return tuple(
             FootOffset(height, pitch, height_sd, pitch_sd)
@@ -106,7 +106,7 @@ class StanceResiduals(Protocol):
 
     @property
     def sizes(self) -> Float[np.ndarray, " a"]:
-        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
+        """One standard deviation of height [m] and pitch [rad] beforehand, by standing trial."""
 
     @property
     def zones(self) -> ZoneParameters:

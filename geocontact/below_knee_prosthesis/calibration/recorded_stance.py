@@ -98,6 +98,8 @@ class RecordedStance:
         Share of the keel's length from the heel; NaN where there is none.
     weight
         Of the body [N].
+    standing
+        Standing trial of the foot: stances of the same one share its errors of height and pitch; "" is one of its own.
     """
 
     time: Float[np.ndarray, " t"]
@@ -108,6 +110,7 @@ class RecordedStance:
     centre: Float[np.ndarray, " t"]
     weight: float
     errors: Errors = Errors()
+    standing: str = ""
 
     @property
     def measured(self) -> Float[np.ndarray, "t c"]:
@@ -146,6 +149,20 @@ class RecordedStance:
         turn = Rotation.from_euler("z", pitch)
         about = RigidTransform.from_components(MIDDLE - turn.apply(MIDDLE), turn)
         return replace(self, poses=raised * about)
+
+
+def standing_trials(stances: Sequence[RecordedStance]) -> tuple[int, ...]:
+    """Number of the standing trial of each stance, in the order in which they first occur."""
+    names = [each.standing or f" {k}" for k, each in enumerate(stances)]
+    order = list(dict.fromkeys(names))
+    return tuple(order.index(name) for name in names)
+
+
+def sizes_by_trial(stances: Sequence[RecordedStance]) -> Float[np.ndarray, " a"]:
+    """One standard deviation of height [m] and pitch [rad] beforehand, by standing trial."""
+    numbers = standing_trials(stances)
+    firsts = [stances[numbers.index(k)].errors for k in range(len(set(numbers)))]
+    return np.array([[each.standing, each.pitch] for each in firsts]).ravel()
 
 
 RATE, AROUND = 200.0, 0.04

@@ -14,7 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
+    RecordedStance,
+    sizes_by_trial,
+    standing_trials,
+)
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
@@ -70,8 +74,8 @@ PAUSE = 1000.0
 class SoleResiduals:
     """Residuals of all stances as functions of what is sought.
 
-    That is the logarithms of the numbers over the usual ones, then of each stance the errors of the foot's height and
-    of its pitch in standard deviations (`Errors`); where the latter are left out, poses are as recorded.
+    That is the logarithms of the numbers over the usual ones, then of each standing trial the errors of the foot's
+    height and of its pitch in standard deviations (`Errors`); where the latter are left out, poses are as recorded.
     Every search for a slip starts from that of the usual numbers, so that residuals hang on nothing but their argument.
 
     Parameters
@@ -105,17 +109,22 @@ class SoleResiduals:
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
         """Standard deviation of everything that is sought, beforehand."""
-        return np.concatenate([self.zones.sd, np.ones(2 * len(self.stances))])
+        return np.concatenate([self.zones.sd, np.ones(len(self.sizes))])
 
     @property
     def sizes(self) -> Float[np.ndarray, " a"]:
-        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
-        return np.array([[each.errors.standing, each.errors.pitch] for each in self.stances]).ravel()
+        """One standard deviation of height [m] and pitch [rad] beforehand, by standing trial."""
+        return sizes_by_trial(self.stances)
+
+    @property
+    def standing(self) -> tuple[int, ...]:
+        """Number of the standing trial of each stance."""
+        return standing_trials(self.stances)
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
         """Reach of everything that is sought, to either bound."""
-        return np.concatenate([self.zones.reach, np.full(2 * len(self.stances), FARTHEST)])
+        return np.concatenate([self.zones.reach, np.full(len(self.sizes), FARTHEST)])
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
         """The numbers."""
@@ -125,7 +134,7 @@ class SoleResiduals:
     def errors(self, z: Float[np.ndarray, " p"], place: int) -> tuple[float, float]:
         """Errors of height [m] and pitch [rad] of one stance."""
         aside = z[len(self.zones.names) :].reshape(-1, 2)
-        height, pitch = aside[place] if len(aside) else (0.0, 0.0)
+        height, pitch = aside[self.standing[place]] if len(aside) else (0.0, 0.0)
         e = self.stances[place].errors
         return e.standing * float(height), e.pitch * float(pitch)
 

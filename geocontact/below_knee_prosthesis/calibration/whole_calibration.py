@@ -61,7 +61,7 @@ class WholeCalibration:
 
     @property
     def offsets(self) -> tuple[FootOffset, ...]:
-        """Offsets of the foot in each stance, beside its standing trial; none where they were not sought."""
+        """Offsets of the foot beside each standing trial; none where they were not sought."""
         return self.knowledge.offsets
 
     @property
@@ -112,6 +112,7 @@ def limb_on_sole(
     cutoff: float | None,
     gap_limit: float,
     turns: int,
+    place: int = 0,
     machine_code: bool = True,
 ) -> LimbInSocket:
     """The limb's motion with the socket's taken out of its markers, along the stance on a calibrated sole.
@@ -124,10 +125,12 @@ def limb_on_sole(
         Markers of the walk, and their fit with the foot as its standing trial has it.
     cutoff, gap_limit, turns
         As those of `limb_in_socket`.
+    place
+        Of the stance among those of the calibration.
 
     ArithmeticError where the stance cannot be simulated.
     """
-    leg = fit.motion.leg.with_foot(found.offsets[0])
+    leg = fit.motion.leg.with_foot(found.offsets[found.residuals.standing[place]])
     first = replace(fit, motion=replace(fit.motion, leg=leg))
     span = (stance.begin, float(stance.recorded.time[-1]))
 

@@ -19,7 +19,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, WalkedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
+    RecordedStance,
+    WalkedStance,
+    sizes_by_trial,
+    standing_trials,
+)
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import FARTHEST, NO_BALANCE, by_channel
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
@@ -190,8 +195,8 @@ ASIDE = 0.2
 class WholeResiduals:
     """Residuals of all stances as functions of what is sought.
 
-    That is the logarithms of the numbers over the usual ones, then of each stance height and pitch of the foot relative
-    to its standing trial in standard deviations (`Errors`); where the latter are left out, the foot is as it stood.
+    That is the logarithms of the numbers over the usual ones, then height and pitch of the foot relative to each
+    standing trial in standard deviations (`Errors`); where the latter are left out, the foot is as it stood.
 
     Parameters
     ----------
@@ -221,18 +226,22 @@ class WholeResiduals:
     @property
     def sd(self) -> Float[np.ndarray, " p"]:
         """Standard deviation of everything that is sought, beforehand."""
-        return np.concatenate([self.zones.sd, np.ones(2 * len(self.wholes))])
+        return np.concatenate([self.zones.sd, np.ones(len(self.sizes))])
 
     @property
     def sizes(self) -> Float[np.ndarray, " a"]:
-        """One standard deviation of height [m] and pitch [rad] beforehand, stance by stance."""
-        errors = [each.stance.recorded.errors for each in self.wholes]
-        return np.array([[e.standing, e.pitch] for e in errors]).ravel()
+        """One standard deviation of height [m] and pitch [rad] beforehand, by standing trial."""
+        return sizes_by_trial([each.stance.recorded for each in self.wholes])
+
+    @property
+    def standing(self) -> tuple[int, ...]:
+        """Number of the standing trial of each stance."""
+        return standing_trials([each.stance.recorded for each in self.wholes])
 
     @property
     def reach(self) -> Float[np.ndarray, " p"]:
         """Reach of everything that is sought, to either bound."""
-        return np.concatenate([self.zones.reach, np.full(2 * len(self.wholes), FARTHEST)])
+        return np.concatenate([self.zones.reach, np.full(len(self.sizes), FARTHEST)])
 
     def values(self, z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " k"]:
         """The numbers."""
@@ -241,10 +250,10 @@ class WholeResiduals:
 
     def whole(self, z: Float[np.ndarray, " p"], place: int) -> WholeStance:
         """One stance with the foot beside its standing trial."""
-        one, aside = self.wholes[place], z[len(self.zones.names) :].reshape(-1, 2)
-        if not len(aside) or not aside[place].any():
+        one, aside, trial = self.wholes[place], z[len(self.zones.names) :].reshape(-1, 2), self.standing[place]
+        if not len(aside) or not aside[trial].any():
             return one
-        height, pitch = aside[place] * self.sizes.reshape(-1, 2)[place]
+        height, pitch = aside[trial] * self.sizes.reshape(-1, 2)[trial]
         stance = one.stance.with_foot(FootOffset(float(height), float(pitch)))
         return WholeStance(stance, self.foot, machine_code=self.machine_code)
 
@@ -294,7 +303,8 @@ class WholeResiduals:
         count = len(self.zones.names)
         found = np.zeros((*self.noise[place].shape, len(z) - count))
         base = self.whole(z, place).channels(shown)
-        for k in (2 * place, 2 * place + 1) if len(z) > count else ():
+        trial = self.standing[place]
+        for k in (2 * trial, 2 * trial + 1) if len(z) > count else ():
             there = z.copy()
             there[count + k] += ASIDE
             other = self.whole(there, place)

@@ -25,7 +25,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import hip_centres, stance_from_markers
@@ -41,11 +40,9 @@ from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, KeelSole
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, MIDDLE, FootOffset, Leg, Person
+from geocontact.below_knee_prosthesis.marker_draws import with_errors
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.loads.sphere_set import SphereSet
-
-SLOW = 0.1
-"""s; over which the slow half of a marker's error changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,21 +125,11 @@ def task_again(trial: RecordedTrial, errors: TrialErrors, rng: np.random.Generat
     force = force + rng.normal(0.0, errors.force, force.shape)
     moved = replace(
         trial,
-        standing=_moved(trial.standing, errors.marker, rng),
-        walking=_moved(trial.walking, errors.marker, rng),
+        standing=with_errors(trial.standing, errors.marker, rng),
+        walking=with_errors(trial.walking, errors.marker, rng),
         plate=PlateStance(plate.time, force, plate.centre),
     )
     return moved.task(errors.pitch * rng.standard_normal())
-
-
-def _moved(seen: MarkerTrajectories, sd: float, rng: np.random.Generator) -> MarkerTrajectories:
-    """With an error on every marker."""
-    shape = seen.positions.shape
-    step = float(np.median(np.diff(seen.time))) if len(seen.time) > 1 else SLOW
-    slow = gaussian_filter1d(rng.standard_normal(shape), SLOW / step, axis=0, mode="wrap")
-    slow /= max(float(slow.std()), 1e-12)
-    error = np.sqrt(0.5) * sd * (slow + rng.standard_normal(shape))
-    return replace(seen, positions=seen.positions + error)
 
 
 @dataclass(frozen=True)

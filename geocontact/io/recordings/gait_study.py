@@ -23,8 +23,9 @@
 
 Files are looked for beside the description. `fulcrum = { value = 100, unit = "mm" }` stands in place of a `setting`.
 `calibrated` marks a trial that its `law` was fitted to: that of the trial, such as one for each setting, else the
-person's. `foot` of a person describes another foot. `ground` is a plane or stairs as in `prosthesis simulate`. What may
-be left out: `side`, `sex`, `residual`, `functional`, `law`, `foot`, `name`, `calibrated`, `ground`.
+person's. `foot` and `socket` of a person describe others than
+the study's. `ground` is a plane or stairs as in `prosthesis simulate`. What may
+be left out: `side`, `sex`, `residual`, `functional`, `law`, `foot`, `socket`, `name`, `calibrated`, `ground`.
 """
 
 from __future__ import annotations
@@ -62,12 +63,16 @@ class GaitPerson(Document):
         Share of the shank that is left.
     residual_length
         Length of the residual limb from the knee's centre, in place of a share.
+    residual_markers
+        Two markers of the standing trial at its ends, in place of a length.
     functional
         Markers of a trial in which the hip turns.
     law
         Force law of the foot.
     foot
         Description of the person's foot; the shipped one by default.
+    socket
+        Description of the person's socket; the study's numbers by default.
     """
 
     mass: Annotated[float, WithUnit(WALKER)]
@@ -76,9 +81,11 @@ class GaitPerson(Document):
     sex: Sex = "male"
     residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
     residual_length: Annotated[float, WithUnit(LIMB)] | None = None
+    residual_markers: Word | None = None
     functional: File | None = None
     law: File | None = None
     foot: File | None = None
+    socket: File | None = None
 
 
 class GaitStance(Document):

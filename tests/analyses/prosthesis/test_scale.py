@@ -135,6 +135,10 @@ def test_numbers_are_those_of_the_written_model(made: ProsthesisScaleResult, tmp
         ({"fulcrum": gc.mm(160)}, "66 to 151 mm"),
         ({"residual_length": gc.mm(480)}, "a residual limb of 480 mm is not shorter than the shank"),
         ({"residual_length": gc.mm(150), "residual": 0.4}, "40% of the shank and 150 mm long"),
+        ({"residual_length": gc.mm(150), "residual_markers": "RKNE,RSO3"}, "given by its length as well"),
+        ({"residual_markers": "RKNE"}, "'RKNE' are not two markers"),
+        ({"residual_markers": "RKNE,REND"}, "no marker REND in the standing trial"),
+        ({"residual_markers": "RASI,RHEE"}, "cannot be the length of a residual limb"),
     ],
 )
 def test_refused(changed: dict[str, Any], words: str) -> None:

@@ -13,7 +13,9 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.number_units import with_units
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.result import (
     ProsthesisSimulateResult,
     against_the_plate,
@@ -23,14 +25,17 @@ from geocontact.analyses.prosthesis.simulate.result import (
     found_words,
 )
 from geocontact.analyses.prosthesis.simulate.show import small_forces
+from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
 from geocontact.analyses.prosthesis.stance_files import write_coordinates
 from geocontact.below_knee_prosthesis.evaluation import stance_errors
+from geocontact.below_knee_prosthesis.foot_numbers import socket_numbers
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.io.opensim.external_loads import read_external_loads
 from tests.analyses.prosthesis.test_written_motion import keel_frames, read_back
 from tests.below_knee_prosthesis.stances import a_stance
 from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 TRIAL = MESHES / "gait_P1_medium_1"
 GIVEN: dict[str, Any] = {
@@ -55,6 +60,10 @@ GIVEN: dict[str, Any] = {
         ({"plate": "other_force", "other_plate": "own_force"}, "carries no whole stance"),
         ({"side": "left"}, "no marker"),
         ({"socket_turns": -1}, "-1 is not 0 to 50"),
+        ({"walks": 2}, "2 is not 4 to 600"),
+        ({"seed": 1}, "`seed`: has no effect"),
+        ({"plate": None, "score": "study"}, "without a plate nothing is compared"),
+        ({"residual_markers": "RKNE,REND"}, "no marker REND"),
         ({"time": (0.1, 0.6)}, "the stance on own_force is from"),
     ],
 )
@@ -63,6 +72,34 @@ def test_refused(changed: dict[str, Any], words: str) -> None:
         warnings.simplefilter("ignore", gc.InputWarning)
         with pytest.raises(gc.InputError, match=words):
             gc.prosthesis.simulate(TRIAL / "walking.trc", **(GIVEN | changed))
+
+
+def test_a_limb_between_two_markers_and_a_socket_of_a_file(tmp_path: Path) -> None:
+    """The limb is as long as the markers are apart while standing; numbers of the socket are those of the file."""
+    file = tmp_path / "socket.toml"
+    file.write_text(
+        'turn_stiffness = { value = 12, unit = "N m/deg" }\nturn_damping = { value = 4, unit = "N m s/deg" }\n'
+        'shift_stiffness = { value = 25, unit = "N/mm" }\nshift_damping = { value = 9, unit = "N s/mm" }\n'
+        'piston_stiffness = { value = 35, unit = "N/mm" }\n'
+    )
+    given = GIVEN | {"residual_markers": "RKNE,RSO3", "socket_numbers": file}
+    o = ProsthesisSimulateOptions(TRIAL / "walking.trc", **given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        opened(Record("prosthesis simulate", {}))
+        recorded = read(o)
+        walk = walk_of(recorded, o)
+    names = list(recorded.standing.names)
+    knee, end = (np.median(recorded.standing.positions[:, names.index(name)], axis=0) for name in ("RKNE", "RSO3"))
+    limb = walk.leg.person.residual * walk.leg.shank
+    assert limb == pytest.approx(float(np.linalg.norm(knee - end)), rel=1e-9)
+    degree = np.pi / 180.0
+    assert bushing_of(o).stiffness == pytest.approx([12.0 / degree] * 3 + [25e3, 35e3, 25e3])
+    assert bushing_of(o).damping == pytest.approx([4.0 / degree] * 3 + [9e3] * 3)
+    numbers = socket_numbers(bushing_of(o))
+    assert {each.source for each in numbers.values()} == {"option"}
+    with pytest.raises(gc.InputError, match="`socket_numbers`: they stand in place of"):
+        ProsthesisSimulateOptions(TRIAL / "walking.trc", **given, socket="as_printed")
 
 
 def test_a_plate_elsewhere_is_not_under_the_foot(tmp_path: Path) -> None:

@@ -84,3 +84,29 @@ def test_with_half_a_degree_planted_no_known_number_is_outside_its_interval() ->
     assert not [n.name for n, value in known if not n.lower <= value <= n.upper]
     assert all(np.isnan(n.lower) and np.isnan(n.upper) for n in numbers if n.verdict != "known")
     assert found.offsets[0].pitch == pytest.approx(-TURNED, abs=np.radians(0.1))
+
+
+def test_stances_of_one_standing_trial_share_its_errors() -> None:
+    """Residuals of both together are those of each by itself, at one height and pitch or at two."""
+    whole, e = recorded(), Errors()
+    names = ("time", "poses", "rate", "force", "centre")
+    one, two = (replace(whole, **{name: getattr(whole, name)[few] for name in names}) for few in PARTS)
+    alone = [SoleResiduals.of([each], vsf_foot()) for each in (one, two)]
+    sole, first, second = 0.1 * np.ones(15), [0.5, -0.8], [-0.3, 0.4]
+    together = SoleResiduals.of([replace(one, standing="a"), replace(two, standing="a")], vsf_foot())
+    apart = SoleResiduals.of([replace(one, standing="a"), replace(two, standing="b")], vsf_foot())
+    assert (together.standing, apart.standing) == ((0, 0), (0, 1))
+    assert (len(together.sd), len(together.reach), len(apart.sd), len(apart.reach)) == (17, 17, 19, 19)
+    assert together.sizes == pytest.approx([e.standing, e.pitch])
+
+    def beside(errors: tuple[list[float], list[float]]) -> np.ndarray:
+        each = zip(alone, errors, strict=True)
+        return np.concatenate([one.of_data(np.concatenate([sole, aside])) for one, aside in each])
+
+    by_one, by_two = np.concatenate([sole, first]), np.concatenate([sole, first, second])
+    np.testing.assert_allclose(together.of_data(by_one), beside((first, first)), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(apart.of_data(by_two), beside((first, second)), rtol=1e-9, atol=1e-12)
+    assert np.abs(together.of_data(by_one) - apart.of_data(by_two)).max() > 0.01
+
+
+PARTS = (slice(20, 40), slice(60, 80))

@@ -27,12 +27,15 @@ MOST_STARTS, PITCH = 1000, math.radians(0.5)
 
 @dataclass(frozen=True)
 class ProsthesisCalibrateOptions(Options):
-    """Stiffness, damping and friction of the zones of a prosthetic foot from one recorded stance.
+    """Stiffness, damping and friction of the zones of a prosthetic foot from recorded stances.
 
     Parameters
     ----------
     markers
         Walking trial (.trc, .c3d, .csv) with the markers of socket, adapter and heel.
+    further
+        More stances of the person on this foot (.toml, as `prosthesis compare` reads it), at any setting, fitted
+        together with this one: those marked as `calibrated`, or all if none is.
 
     The person
     ----------
@@ -106,8 +109,8 @@ class ProsthesisCalibrateOptions(Options):
 
     writes: ClassVar[str] = """
     Writes numbers.csv (value, interval, and whether the stance identifies it), stance.csv (plate and model), law.toml
-    (the calibrated force law, as `geocontact cop` reads it, and the offset of the foot from its standing trial), a
-    figure, report.html and run.json into OUT.
+    (the calibrated force law, as `geocontact cop` reads it, and the offset of the foot from its standing trial),
+    stances.csv with `further`, a figure, report.html and run.json into OUT.
     """
 
     markers: Path
@@ -115,6 +118,7 @@ class ProsthesisCalibrateOptions(Options):
     static: Path
     mass: Annotated[BodyMass, PERSON]
     plates: Path
+    further: Path | None = None
     side: Literal["right", "left"] = "right"
     foot: Path | None = None
     setting: str = "medium"

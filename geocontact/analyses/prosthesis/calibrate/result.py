@@ -1,4 +1,4 @@
-"""The sole's numbers from a stance: `geocontact prosthesis calibrate`, `gc.prosthesis.calibrate`.
+"""The sole's numbers from recorded stances: `geocontact prosthesis calibrate`, `gc.prosthesis.calibrate`.
 
 >>> import geocontact as gc
 >>> trial = "meshes/gait_P1_medium_1/"
@@ -26,11 +26,18 @@ from geocontact.analyses.frame.collector import contradicted, judge, note, reser
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.prosthesis.calibrate.foot_on_plate import FootOnPlate, along_poses, on_whole_model, read
+from geocontact.analyses.prosthesis.calibrate.foot_on_plate import (
+    AskedStance,
+    FootOnPlate,
+    along_poses,
+    on_whole_model,
+    read,
+)
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.calibrate.show import CalibratedFit, calibration_page, stance_curves
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.fit import (
+    FittedStance,
     fore_aft_error,
     goodness_of,
     known_of,
@@ -50,8 +57,8 @@ if TYPE_CHECKING:
     from geocontact.view.page.content import Page
 
 HEAD = """\
-# Force law of the sole, calibrated on one stance; SI units. Numbers marked unknown were never loaded; those marked
-# not identified are determined by the prior, not by the stance.
+# Force law of the sole, calibrated on recorded stances; SI units. Numbers marked unknown were never loaded; those
+# marked not identified are determined by the prior, not by the stances.
 """
 FOOT = """
 [foot]  # offset from its standing trial, identified with the law; `sd` are standard deviations
@@ -100,29 +107,47 @@ class ProsthesisCalibrateResult(Result):
 
     Parameters
     ----------
-    stance
-        As it was recorded.
     calibration
         What was found along the recorded poses.
     whole
         What was found from there on the whole model, where that was asked for.
-    predicted
-        Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) with the numbers found
-        last, by the model that found them.
-    slip
-        Along the floor, beside the recorded speed [m/s].
-    vertical, centre
-        Agreement of the vertical force over body weight, and of the centre, with the plate's.
+    fitted
+        Each stance as it was recorded, and with the numbers found last, by the model that found them; the one that the
+        options name first.
+    settings
+        Setting of the foot in each of them.
     """
 
     options: ProsthesisCalibrateOptions
-    stance: RecordedStance
     calibration: SoleCalibration
     whole: WholeCalibration | None
-    predicted: Float[ndarray, "t 4"]
-    slip: Float[ndarray, "t 2"]
-    vertical: Agreement
-    centre: Agreement
+    fitted: tuple[FittedStance, ...]
+    settings: tuple[str, ...]
+
+    @property
+    def stance(self) -> RecordedStance:
+        """The first stance as it was recorded."""
+        return self.fitted[0].stance
+
+    @property
+    def predicted(self) -> Float[ndarray, "t 4"]:
+        """Force in the ground's frame [N] and centre of pressure from the heel (share of the foot) in that stance."""
+        return self.fitted[0].fit.predicted
+
+    @property
+    def slip(self) -> Float[ndarray, "t 2"]:
+        """Slip along the floor in that stance, beside the recorded speed [m/s]."""
+        return self.fitted[0].fit.slip
+
+    @property
+    def vertical(self) -> Agreement:
+        """Agreement of the vertical force of that stance over body weight with the plate's."""
+        return self.fitted[0].fit.vertical
+
+    @property
+    def centre(self) -> Agreement:
+        """Agreement of the centre of pressure of that stance with the plate's."""
+        return self.fitted[0].fit.centre
 
     @property
     def residual(self) -> float:
@@ -155,12 +180,7 @@ class ProsthesisCalibrateResult(Result):
         return by_name(self.table("numbers"), ("number",), "value")
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`numbers`, `stance`."""
-        s = self.stance
-        columns = {"time [s]": s.time}
-        for k, axis in enumerate("xyz"):
-            columns |= {f"force_{axis} [N]": self.predicted[:, k], f"plate_force_{axis} [N]": s.force[:, k]}
-        columns |= {"centre in the foot [-]": self.predicted[:, 3], "plate centre in the foot [-]": s.centre}
+        """`numbers`, `stance`, and `stances` where there are several."""
         rows = [
             {
                 "number": each.name,
@@ -177,7 +197,28 @@ class ProsthesisCalibrateResult(Result):
         if self.whole is not None:
             for row, before in zip(rows, known_of(self.calibration), strict=True):
                 row |= {"along poses": before.value, "along poses verdict": before.verdict}
-        return {"numbers": pd.DataFrame(rows), "stance": pd.DataFrame(columns)}
+        found = {"numbers": pd.DataFrame(rows), "stance": pd.concat(map(_curves, self.fitted), ignore_index=True)}
+        return found if len(self.fitted) == 1 else found | {"stances": self._stances()}
+
+    def _stances(self) -> pd.DataFrame:
+        """How near each stance comes to its plate, and the foot beside its standing trial in it."""
+        rows = []
+        for place, (one, setting) in enumerate(zip(self.fitted, self.settings, strict=True)):
+            offset = self.last.offsets[self.last.residuals.standing[place]]
+            rows.append(
+                {
+                    "stance": one.name,
+                    "setting": setting,
+                    "fulcrum [mm]": 1e3 * one.stance.fulcrum,
+                    "vertical rmse [-]": one.fit.vertical.rmsd,
+                    "vertical r2 [-]": one.fit.vertical.r2,
+                    "centre rmse [-]": one.fit.centre.rmsd,
+                    "centre r2 [-]": one.fit.centre.r2,
+                    "foot height [mm]": 1e3 * offset.height,
+                    "foot pitch [deg]": float(np.degrees(offset.pitch)),
+                }
+            )
+        return pd.DataFrame(rows)
 
     def curves(self) -> dict[str, CurveSheet]:
         """`stance`: measured and modelled force and centre of pressure."""
@@ -194,7 +235,8 @@ class ProsthesisCalibrateResult(Result):
             self.last.offsets[0].words,
             float(np.ravel(law.exponent)[0]),
         )
-        return {REPORT: calibration_page(self.stance, self.curves()["stance"], numbers, fit, walked)}
+        several = self._stances() if len(self.fitted) > 1 else None
+        return {REPORT: calibration_page(self.stance, self.curves()["stance"], numbers, fit, walked, several)}
 
     def write_files(self, folder: Path) -> None:
         """law.toml besides, unless the stance contradicts it."""
@@ -208,26 +250,36 @@ class ProsthesisCalibrateResult(Result):
         (folder / LAW).write_text(law_toml(self.last, standing), encoding="utf-8", newline="\n")
 
 
+def _curves(one: FittedStance) -> pd.DataFrame:
+    """Force and centre of one stance over time, by model and plate; with its name where it has one."""
+    s, predicted = one.stance, one.fit.predicted
+    columns: dict[str, object] = {"stance": one.name} if one.name else {}
+    columns["time [s]"] = s.time
+    for k, axis in enumerate("xyz"):
+        columns |= {f"force_{axis} [N]": predicted[:, k], f"plate_force_{axis} [N]": s.force[:, k]}
+    columns |= {"centre in the foot [-]": predicted[:, 3], "plate centre in the foot [-]": s.centre}
+    return pd.DataFrame(columns)
+
+
 def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrateResult:
-    """Numbers of the zones, their intervals, and the stance with them."""
+    """Numbers of the zones, their intervals, and the stances with them."""
     found = along_poses(given, o)
     whole = on_whole_model(given, found, o)
-    fit = stance_fit(found, whole)
-    result = ProsthesisCalibrateResult(
-        options=o,
-        stance=given.stance,
-        calibration=found,
-        whole=whole,
-        predicted=fit.predicted,
-        slip=fit.slip,
-        vertical=fit.vertical,
-        centre=fit.centre,
+    fitted = tuple(
+        FittedStance(one.asked.name, one.stance, stance_fit(found, whole, place))
+        for place, one in enumerate(given.stances)
     )
-    judge(goodness_of(result.last, fit, given.stance))
+    settings = tuple(_setting(one.asked) for one in given.stances)
+    result = ProsthesisCalibrateResult(options=o, calibration=found, whole=whole, fitted=fitted, settings=settings)
+    judge(goodness_of(result.last, fitted))
     if contradicted():
         reserve(f"{LAW} is not written, because no simulation should use a law that its stance contradicts")
     _summarise(result)
     return result
+
+
+def _setting(asked: AskedStance) -> str:
+    return asked.setting if asked.fulcrum is None else f"{1e3 * asked.fulcrum:g} mm"
 
 
 def _summarise_fit(r: ProsthesisCalibrateResult) -> None:
@@ -263,11 +315,18 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
     if not found.converged:
         reserve("the search stopped before convergence; give more `starts`")
     apart = found.knowledge.told_apart
+    if len(r.fitted) > 1:
+        say(f"one sole fitted to {len(r.fitted)} stances together; the first of them:")
     say(
         f"vertical force within {100.0 * r.vertical.rmsd:.1f} % of body weight (R² {r.vertical.r2:.3f}), centre of "
         f"pressure within {100.0 * r.centre.rmsd:.1f} % of the foot (R² {r.centre.r2:.2f}); the force along the floor "
         f"{_along(r)}"
     )
+    for one, setting in zip(r.fitted[1:], r.settings[1:], strict=True):
+        say(
+            f"{one.name} ({setting}): vertical force within {one.fit.vertical.rmsd:.1%} of body weight, centre of "
+            f"pressure within {one.fit.centre.rmsd:.1%} of the foot"
+        )
     _summarise_fit(r)
     if r.whole is not None:
         say(
@@ -287,6 +346,7 @@ def _summarise(r: ProsthesisCalibrateResult) -> None:
             "pitch_rad": offset.pitch,
             "pitch_sd_rad": None if contradicted() else offset.pitch_sd,
             "residual_over_noise": r.residual,
+            **({"stances": [one.name for one in r.fitted]} if len(r.fitted) > 1 else {}),
             "vertical_rmse_of_body_weight": r.vertical.rmsd,
             "vertical_r2": r.vertical.r2,
             "centre_rmse_of_foot": r.centre.rmsd,

@@ -125,7 +125,12 @@ def numbers_in_words(numbers: pd.DataFrame, exponent: float) -> pd.DataFrame:
 
 
 def calibration_page(
-    stance: RecordedStance, curves: CurveSheet, numbers: pd.DataFrame, fit: CalibratedFit, walked: bool
+    stance: RecordedStance,
+    curves: CurveSheet,
+    numbers: pd.DataFrame,
+    fit: CalibratedFit,
+    walked: bool,
+    several: pd.DataFrame | None = None,
 ) -> Page:
     """Curves, numbers and what they mean.
 
@@ -135,9 +140,12 @@ def calibration_page(
         Those of `stance_curves`.
     walked
         Whether the numbers were found on the whole model.
+    several
+        Fit of each stance, where several were fitted together: curves are of the first.
     """
     sections: list[Section] = [
         *curves.panels,
+        *([] if several is None else [frame_table("Stances that were fitted together", several, 3)]),
         frame_table("Numbers of the zones", numbers_in_words(numbers, fit.exponent), 3),
         INPUTS,
         OPTIONS,
@@ -145,7 +153,7 @@ def calibration_page(
     ]
     return Page(
         title="Calibrated sole of a prosthetic foot",
-        subtitle="Stiffness, damping and friction of its zones from one stance",
+        subtitle="Stiffness, damping and friction of its zones from recorded stances",
         time=stance.time,
         time_label="time [s]",
         headline=answer(fit, numbers),

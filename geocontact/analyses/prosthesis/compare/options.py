@@ -6,11 +6,11 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression
+from geocontact.analyses.frame.marks import C3dUnit, Expression, Length, Requires
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import TURNS, require_turns
+from geocontact.analyses.prosthesis.ranges import TURNS, require_one_socket, require_turns, require_walks
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP, SHIFT
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,29 @@ class ProsthesisCompareOptions(Options):
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
 
+    Errors of the markers
+    ---------------------
+    walks
+        Draws of the markers' errors, along each of which every stance is simulated again: how far they move force and
+        centre of pressure, and how much of the plate's curves is within that. A draw takes as long as the stance.
+    marker_error
+        Standard deviation of each coordinate of a marker [mm], half of its variance from frame to frame and half
+        slowly; 0.5 mm by default, which is invented. Skin moves by millimetres.
+    seed
+        Seed of the draws.
+
     How it is simulated
     -------------------
     foot
         Description of another foot (.toml), for persons who have none in the study.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    socket_numbers
+        Stiffness and damping of the socket in a file (.toml), in place of `socket`, for persons who have
+        none in the study.
+    score
+        What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
+        of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
     machine_code
         Compile the equations first: the first run takes ten seconds longer, later runs are faster.
     workers
@@ -65,13 +82,20 @@ class ProsthesisCompareOptions(Options):
     markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
+    walks: int | None = None
+    marker_error: Annotated[Length | None, SHIFT, Requires("walks")] = None
+    seed: Annotated[int | None, Requires("walks")] = None
     foot: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    socket_numbers: Path | None = None
+    score: Literal["stance", "study"] = "stance"
     machine_code: bool = False
     workers: int | None = None
 
     def refuse_impossible(self) -> None:
         """No process at all, a negative number of fits."""
         require_turns(self.socket_turns)
+        require_walks(self.walks)
+        require_one_socket(self.socket, self.socket_numbers)
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")

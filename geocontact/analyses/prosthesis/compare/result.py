@@ -37,6 +37,7 @@ from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOpti
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, comparison_page
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
+    LASTING,
     StudiedStance,
     ensembles_table,
     errors_table,
@@ -58,6 +59,7 @@ from geocontact.below_knee_prosthesis.comparison import odd_stances
 from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, reasons
 from geocontact.below_knee_prosthesis.foot_numbers import numbers_of
 from geocontact.below_knee_prosthesis.leg import Side
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2, of_many_r2
@@ -81,6 +83,8 @@ class ProsthesisCompareResult(Result):
         Of the prosthesis, by trial.
     odd
         How far each stance that nothing was fitted to stands out.
+    bands
+        How far errors of the markers move each stance, by trial; empty without draws.
     """
 
     spread_bands: ClassVar[bool] = True  # of the stances
@@ -89,6 +93,7 @@ class ProsthesisCompareResult(Result):
     stances: tuple[JudgedStance, ...]
     sides: Mapping[str, Side]
     odd: Mapping[str, Oddness]
+    bands: Mapping[str, MarkerBand]
 
     @property
     def rmse(self) -> dict[tuple[str, str], float]:
@@ -106,7 +111,7 @@ class ProsthesisCompareResult(Result):
         errors = errors_table(self.stances)
         found = {
             "summary": summary_table(errors),
-            "trials": trials_table(self.stances, self.odd),
+            "trials": trials_table(self.stances, self.odd, self.bands),
             "errors": errors,
             "ensembles": ensembles_table(self.stances),
         }
@@ -134,6 +139,8 @@ class ProsthesisCompareResult(Result):
 
 
 WORDS = {name: NAMES[name] for name in SAID}
+MOVED = ("moved by markers [-]", "within that [-]")
+"""Ends of the columns on errors of the markers."""
 PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
@@ -141,6 +148,7 @@ PLAIN = ("mean of the others rmse", "another rmse")
 def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> ProsthesisCompareResult:
     """Every stance that can be simulated; InputError where none can."""
     found: dict[str, Stance] = {}
+    bands: dict[str, MarkerBand] = {}
     with listener().progress("stances", len(given)) as step:
         for one, became in each(simulated_stance, given, o.workers):
             if isinstance(became, BaseException):
@@ -148,9 +156,11 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
             if isinstance(became, str):
                 reserve(f"{one.trial.name} is left out: {became}")
             else:
-                found[one.trial.name] = became.stance
-                if not became.settled:
-                    reserve(f"{one.trial.name}: {counted_twice(became)}")
+                found[one.trial.name] = became.limb.stance
+                if became.band is not None:
+                    bands[one.trial.name] = became.band
+                if not became.limb.settled:
+                    reserve(f"{one.trial.name}: {counted_twice(became.limb)}")
             step()
     if not found:
         raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
@@ -160,6 +170,7 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
         stances=stances,
         sides={one.trial.name: one.person.side for one in given},
         odd=odd_stances(stances),
+        bands=bands,
     )
     _summarise(result)
     return result
@@ -186,14 +197,13 @@ def _summarise(r: ProsthesisCompareResult) -> None:
         own = summary[summary["setting"] == setting].set_index("quantity")
         say(f"{setting}: {'; '.join(_of_setting(name, own.loc[[name]].iloc[0]) for name in SAID)}")
     _say_changes(stances)
-    late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
-    late = [each for each in late if np.isfinite(each)]
     turned = [one.stance.motion.leg.offset.given for one in stances]
     if any(turned):
         count = f"{sum(turned)} of {len(stances)} stances"
         say(f"height and pitch of the foot relative to its standing trial are taken from the law on {count}")
-    if late:
-        say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms)")
+    _say_lasting(stances, summary)
+    if r.bands:
+        _say_moved(r)
     for one in stances:
         if (oddness_of := r.odd.get(one.name)) is not None and oddness_of.outlier:
             seen = "; ".join(reasons(one)) or "no checked cause explains it"
@@ -203,6 +213,29 @@ def _summarise(r: ProsthesisCompareResult) -> None:
     for words in filter(None, (small_force(str(name), float(r2)) for name, r2 in rows["r2 [-]"].items())):
         reserve(words)
     note("compare", plain({one.name: _numbers(one) for one in stances}))
+
+
+def _say_lasting(stances: Sequence[JudgedStance], summary: pd.DataFrame) -> None:
+    """Length of the stances beside that on their plates, over all and by setting."""
+    late = [one.errors.stance[0] - one.errors.stance[1] for one in stances if not one.calibrated]
+    late = [each for each in late if np.isfinite(each)]
+    if not late:
+        return
+    settings = list(dict.fromkeys(one.setting for one in stances if not one.calibrated))
+    own = summary[summary["quantity"] == LASTING].set_index("setting")["difference"]
+    each_own = "; " + ", ".join(f"{name} {1e3 * own[name]:+.0f}" for name in settings) + " ms" if settings[1:] else ""
+    say(f"stance longer than on the plate by {1e3 * np.mean(late):+.0f} ms (SD {1e3 * np.std(late):.0f} ms){each_own}")
+
+
+def _say_moved(r: ProsthesisCompareResult) -> None:
+    """How far errors of the markers move the stances, and how much of the plates is within that."""
+    table = r.table("trials")
+    force, centre, within = (float(table[name].mean()) for name in table.columns if name.endswith(MOVED))
+    say(
+        f"errors of the markers move the vertical force by ±{force:.1%} BW and the centre of pressure by "
+        f"±{centre:.1%} of the foot (95 %, mean over the stances); the plates' force is within that for {within:.0%} "
+        "of the stance"
+    )
 
 
 def goodness_of(stances: Sequence[JudgedStance]) -> GoodnessOfFit:

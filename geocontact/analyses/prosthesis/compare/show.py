@@ -46,11 +46,18 @@ WITHOUT = [
     "Another setting: the plate of the person's first trial on another setting of the foot.",
     "The pelvis is free upwards, so that the impulse is nearly body weight times time, whatever the foot is.",
 ]
-MEASURES = [
-    (
+OVER = {
+    False: (
         "Errors are over the stance that the plate saw. The study takes a quarter of a second of swing on both sides "
-        "as well, where both forces are nothing, which makes its errors smaller."
+        "as well, where both forces are nothing, which makes its errors smaller (option “score”)."
     ),
+    True: (
+        "Errors are scored as in the study: with a quarter of a second of swing on both sides, where both forces are "
+        "nothing, and centres of pressure low-passed at 6 Hz; over the stance alone they are larger."
+    ),
+}
+"""Over the stance alone, and as the study has it."""
+MEASURES = [
     "Force and centre of pressure of the other leg are recorded and given; trials of a sole fit are listed apart.",
     "An outlier deviates by more than three standard deviations by the study's rule, or by the median.",
 ]
@@ -105,6 +112,7 @@ def in_words(table: pd.DataFrame) -> pd.DataFrame:
 
 def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame]) -> Page:
     """Ensembles, errors beside trivial predictors, outliers."""
+    over = OVER[bool(stances[0].errors.share[0] < 0.0)]
     sections: list[Section] = [
         *comparison_curves(stances).panels,
         frame_table("Means by setting, compared with baseline predictors", in_words(tables["summary"]), 3),
@@ -117,7 +125,7 @@ def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.Dat
         frame_table("Errors of each stance", in_words(tables["errors"]), 3),
         INPUTS,
         OPTIONS,
-        Words("How to read the numbers", [*WITHOUT, CHANGES, *MEASURES, NOT_A_DEVICE]),
+        Words("How to read the numbers", [*WITHOUT, CHANGES, over, *MEASURES, NOT_A_DEVICE]),
     ]
     return Page(
         title=f"{counted(len(stances), 'prosthetic stance')} compared with force plates",

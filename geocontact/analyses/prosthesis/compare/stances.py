@@ -13,9 +13,10 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
+from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, band_of, simulated, walk_of
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.analyses.prosthesis.simulate.walk import simulated, walk_of
 from geocontact.below_knee_prosthesis.comparison import against_predictors, by_setting, ensembles
 from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
@@ -24,11 +25,14 @@ from geocontact.below_knee_prosthesis.evaluation import (
     JudgedStance,
     Oddness,
     PlateStance,
+    at_times,
     judged,
     reasons,
 )
 from geocontact.below_knee_prosthesis.leg import RESIDUAL
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
@@ -42,8 +46,17 @@ class StudiedStance:
     trial: GaitStance
     person: GaitPerson
     asked: ProsthesisSimulateOptions
+    recorded: RecordedWalk
     walk: Walk
     plate: PlateStance
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedStance:
+    """A stance along the limb's motion, and how far errors of the markers move it; None without draws."""
+
+    limb: LimbInSocket
+    band: MarkerBand | None
 
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
@@ -71,7 +84,8 @@ def _stance(
     asked = _asked(trial, person, o)
     _require_setting(asked, trial, o)
     with collecting(Record("prosthesis simulate", {})) as own:
-        walk = walk_of(read_walk(asked), asked)
+        recorded = read_walk(asked)
+        walk = walk_of(recorded, asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:
@@ -79,7 +93,7 @@ def _stance(
         seen.setdefault((said, line in own.causes), []).append(trial.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{trial.name}: no plate")
-    return StudiedStance(trial, person, asked, walk, walk.plate)
+    return StudiedStance(trial, person, asked, recorded, walk, walk.plate)
 
 
 def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:
@@ -96,6 +110,11 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         law=trial.law or person.law,
         ground=trial.ground,
         socket=o.socket,
+        socket_numbers=person.socket or o.socket_numbers,
+        score=o.score,
+        walks=o.walks,
+        marker_error=o.marker_error,
+        seed=o.seed,
         plates=trial.plates,
         other_plate=trial.other_plate,
         plate=trial.plate,
@@ -108,6 +127,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers, trial.plates, person.static, person.functional),
         residual=RESIDUAL if person.residual is None else person.residual,
         residual_length=person.residual_length,
+        residual_markers=person.residual_markers,
     )
 
 
@@ -121,19 +141,22 @@ def _require_setting(asked: ProsthesisSimulateOptions, trial: GaitStance, o: Pro
         raise replace(error, file=o.study, place=f"[[trials]] {trial.name} {error.place.strip('`')}") from error
 
 
-def simulated_stance(one: StudiedStance) -> LimbInSocket | str:
+def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
     """A stance along the limb's motion, or why there is none; runs in a process of its own."""
     try:
-        found = simulated(one.walk, one.asked)
+        limb = simulated(one.walk, one.asked)
+        if not limb.stance.on.any():
+            return "the foot never touches the floor"
+        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
     except InputError as error:
         return error.what
-    return found if found.stance.on.any() else "the foot never touches the floor"
 
 
 def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
     """A simulated stance beside its plate."""
     trial = one.trial
-    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated)
+    scoring = SCORES[one.asked.score]
+    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated, scoring=scoring)
 
 
 ALL = "all"
@@ -162,13 +185,30 @@ def errors_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
             row[f"{column} rmse"] = np.nan if own is None else own.rmsd
         row["better"] = np.nan if each.better is None else each.better
         rows.append(row)
+    rows += [_lasting(one) for one in stances]
     return pd.DataFrame(rows)
+
+
+LASTING = "stance"
+"""Quantity of the rows on how long a stance lasts: simulated less measured, and the size of that as its error."""
+
+
+def _lasting(one: JudgedStance) -> dict[str, object]:
+    """Length of one stance beside that on its plate [s]; no predictor without a model has one of its own."""
+    late = one.errors.stance[0] - one.errors.stance[1]
+    own = {"trial": one.name, "person": one.person, "setting": one.setting, "calibrated": one.calibrated}
+    return own | {"quantity": LASTING, "unit": "s", "rmse": abs(late), "difference": late}
 
 
 def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
     """Means and standard deviations by setting and over all, as the study's table 3; calibrated stances apart."""
     rows = []
-    names = ("r2 [-]", "rmse", *(f"{label} {kind}" for label in (MEAN, "another") for kind in ("rmse", "r2 [-]")))
+    names = (
+        "r2 [-]",
+        "rmse",
+        "difference",
+        *(f"{label} {kind}" for label in (MEAN, "another") for kind in ("rmse", "r2 [-]")),
+    )
     for calibrated, part in errors.groupby("calibrated", sort=False):
         settings = list(dict.fromkeys(part["setting"]))
         for setting in [*settings, ALL] if not calibrated else ["calibrated"]:
@@ -177,17 +217,22 @@ def summary_table(errors: pd.DataFrame) -> pd.DataFrame:
                 numbers: dict[str, float] = {}
                 for name in names:
                     numbers[name] = float(group[name].mean())
-                    if name in names[:2]:
+                    if name in names[:3]:
                         spread = float(group[name].std(ddof=1)) if len(group) > 1 else np.nan
                         numbers[f"{name.partition(' ')[0]} sd"] = spread
                 better = group["better"].dropna()
                 told = {"setting": setting, "quantity": quantity, "unit": group["unit"].iloc[0]}
-                rows.append({**told, **numbers, "better": int(better.astype(bool).sum()), "trials": len(group)})
+                won = int(better.astype(bool).sum()) if quantity != LASTING else np.nan
+                rows.append({**told, **numbers, "better": won, "trials": len(group)})
     return pd.DataFrame(rows)
 
 
-def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) -> pd.DataFrame:
-    """One row for each stance: its length, peaks, how far it stands out, and what is seen in it."""
+def trials_table(
+    stances: Sequence[JudgedStance], odd: Mapping[str, Oddness], bands: Mapping[str, MarkerBand]
+) -> pd.DataFrame:
+    """One row for each stance: its length, peaks, how far it stands out, what is seen in it, and with draws of the
+    markers' errors how far these move it.
+    """
     rows = []
     for one in stances:
         own = odd.get(one.name, Oddness(float("nan"), float("nan")))
@@ -208,6 +253,7 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
                 "most ankle moment [N m/kg]": float(np.nanmax(model)),
                 "most ankle moment on the plate [N m/kg]": float(seen.max()),
                 "resultant rmse [-]": one.errors.table["resultant"][1],
+                **(moved_by_markers(one, bands[one.name]) if bands else {}),
                 "off by the study's rule [-]": own.by_study,
                 "off by the median [-]": own.by_median,
                 "outlier": own.outlier,
@@ -215,6 +261,18 @@ def trials_table(stances: Sequence[JudgedStance], odd: Mapping[str, Oddness]) ->
             }
         )
     return pd.DataFrame(rows)
+
+
+def moved_by_markers(one: JudgedStance, band: MarkerBand) -> dict[str, float]:
+    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it."""
+    s = one.stance
+    weight = s.motion.leg.person.mass * GRAVITY
+    seen = at_times(s.time, one.plate.time, one.plate.force)[:, 1] / weight
+    return {
+        "vertical moved by markers [-]": band.width("vertical", s.on),
+        "centre moved by markers [-]": band.width("cop_ground", s.on),
+        "plate within that [-]": band.inside("vertical", seen, s.on),
+    }
 
 
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:

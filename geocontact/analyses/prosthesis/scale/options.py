@@ -47,6 +47,8 @@ class ProsthesisScaleOptions(Options):
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
         Length of the residual limb from the knee's centre to its end, in place of a share.
+    residual_markers
+        Two markers of the standing trial at the residual limb's ends, such as RKNE,REND, in place of a length.
 
     The prosthesis
     --------------
@@ -83,6 +85,7 @@ class ProsthesisScaleOptions(Options):
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
+    residual_markers: str | None = None
     prosthesis_mass: Annotated[PartMass | None, PROSTHESIS] = None
     foot: Path | None = None
     setting: str = "medium"
@@ -93,6 +96,6 @@ class ProsthesisScaleOptions(Options):
 
     def refuse_impossible(self) -> None:
         """Nobody to weigh."""
-        require_one_residual(self.residual, self.residual_length)
+        require_one_residual(self.residual, self.residual_length, self.residual_markers)
         if self.mass is None:
             raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")

@@ -34,7 +34,7 @@ from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.number_units import with_units
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, residual_of
 from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
 from geocontact.analyses.prosthesis.stance_files import numbers_table
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
@@ -254,8 +254,9 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
     below = stood.foot.record.below
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
-    if o.residual_length is not None:
-        made = replace(made, prosthetic=with_residual(made.prosthetic, o.residual_length))
+    length = residual_of(stood.seen, o.residual_length, o.residual_markers)
+    if length is not None:
+        made = replace(made, prosthetic=with_residual(made.prosthetic, length))
     mass = made.pelvis_body()[0]
     if not mass > 0.0:
         what = f"the legs leave {mass:.1f} kg of {made.mass:g} kg for all above them"

@@ -6,7 +6,17 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import BodyMass, C3dUnit, Expression, Fraction, PartLength, Spelled, TimeSpan
+from geocontact.analyses.frame.marks import (
+    BodyMass,
+    C3dUnit,
+    Expression,
+    Fraction,
+    Length,
+    PartLength,
+    Requires,
+    Spelled,
+    TimeSpan,
+)
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import (
     FULCRUM,
@@ -15,10 +25,12 @@ from geocontact.analyses.prosthesis.ranges import (
     RESIDUAL,
     TURNS,
     require_one_residual,
+    require_one_socket,
     require_turns,
+    require_walks,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP
+from geocontact.data.plausible import CUTOFF, GAP, SHIFT
 
 
 @dataclass(frozen=True)
@@ -44,6 +56,8 @@ class ProsthesisSimulateOptions(Options):
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
         Length of the residual limb from the knee's centre to its end, in place of a share.
+    residual_markers
+        Two markers of the standing trial at the residual limb's ends, such as RKNE,REND, in place of a length.
     functional
         Trial in which the thigh swings in all directions: gives the hip's centre, else a regression does.
 
@@ -60,6 +74,8 @@ class ProsthesisSimulateOptions(Options):
         and pitch of the foot relative to its standing trial, where that is `static`.
     socket
         Bushing between residual limb and socket: as_meant (10 N m/deg) or as_printed (10 N mm/deg).
+    socket_numbers
+        Stiffness and damping of the socket in a file (.toml), in place of `socket`.
 
     The ground
     ----------
@@ -75,6 +91,9 @@ class ProsthesisSimulateOptions(Options):
         Name or number of the plate under the other foot: its force stands for the other leg.
     plate
         Name or number of the plate under the prosthetic foot, to compare with.
+    score
+        What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
+        of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
 
     The motion
     ----------
@@ -96,13 +115,30 @@ class ProsthesisSimulateOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6. It has to begin before touch-down.
+
+    Errors of the markers
+    ---------------------
+    walks
+        Draws of the markers' errors, along each of which the stance is simulated again: a band of forces, centre of
+        pressure and ankle moment. A draw takes as long as the stance.
+    marker_error
+        Standard deviation of each coordinate of a marker [mm], half of its variance from frame to frame and half
+        slowly; 0.5 mm by default, which is invented. Skin moves by millimetres.
+    seed
+        Seed of the draws.
+
+    Check of the model
+    ------------------
+    stand_still
+        Simulate 10 s of standing still as well, the other foot under half of the weight: how much of the other half
+        the foot's force misses in the end.
     """
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes stance.csv, errors.csv and curves.csv with a force plate, numbers.csv with the source of every number,
-    coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`), paraview, a figure,
-    report.html (moving foot with forces) and run.json into OUT.
+    Writes stance.csv, errors.csv and curves.csv with a force plate, band.csv with `walks`, numbers.csv with the source
+    of every number, coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`),
+    paraview, a figure, report.html (moving foot with forces) and run.json into OUT.
     """
 
     markers: Path
@@ -113,16 +149,19 @@ class ProsthesisSimulateOptions(Options):
     sex: Literal["male", "female"] = "male"
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
+    residual_markers: str | None = None
     functional: Path | None = None
     foot: Path | None = None
     setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
+    socket_numbers: Path | None = None
     ground: Expression | None = None
     plates: Path | None = None
     other_plate: str | None = None
     plate: str | None = None
+    score: Literal["stance", "study"] = "stance"
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     socket_turns: int = TURNS
@@ -131,10 +170,14 @@ class ProsthesisSimulateOptions(Options):
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
+    walks: int | None = None
+    marker_error: Annotated[Length | None, SHIFT, Requires("walks")] = None
+    seed: Annotated[int | None, Requires("walks")] = None
+    stand_still: bool = False
 
     def refuse_impossible(self) -> None:
         """Nothing to scale with, or nothing that stands for the other leg."""
-        require_one_residual(self.residual, self.residual_length)
+        require_one_residual(self.residual, self.residual_length, self.residual_markers)
         if self.static is None:
             what = "no standing trial: the leg's lengths and the markers' places are not known"
             raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")
@@ -146,4 +189,8 @@ class ProsthesisSimulateOptions(Options):
         if self.plate == self.other_plate:
             what = f"{self.plate} is named for both feet"
             raise InputError("", "`plate`", what, "each foot needs a plate of its own")
+        if self.plate is None and self.score != "stance":
+            raise InputError("", "`score`", "without a plate nothing is compared", "name the `plate`")
         require_turns(self.socket_turns)
+        require_walks(self.walks)
+        require_one_socket(self.socket, self.socket_numbers)

@@ -24,15 +24,18 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import judge, note, reserve, say
+from geocontact.analyses.frame.collector import judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID
+from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.walk import (
+    MARKER_ERROR,
     RecordedWalk,
+    band_of,
     bushing_of,
     read,
     simulated,
@@ -47,15 +50,18 @@ from geocontact.analyses.prosthesis.stance_files import (
     write_plane,
     write_spheres,
 )
-from geocontact.below_knee_prosthesis.evaluation import StanceErrors, stance_errors
+from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, stance_errors
 from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
-from geocontact.below_knee_prosthesis.leg_tree import SOCKET
+from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
+from geocontact.below_knee_prosthesis.marker_draws import UNITS as UNITS_OF_BAND
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.below_knee_prosthesis.stance_model import FLOOR
 from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
+from geocontact.below_knee_prosthesis.standing_still import StandingStill, standing_still
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
 from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_low_r2, of_range
@@ -94,6 +100,20 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
     )
 
 
+STUDY_STILL = 1e-3
+"""Share of body weight that the study's model misses while standing, at most."""
+
+
+def band_table(band: MarkerBand) -> pd.DataFrame:
+    """Curves over time, and lower and upper end of their band of 95 %."""
+    columns: dict[str, object] = {"time [s]": band.time}
+    for name, unit in UNITS_OF_BAND.items():
+        middle, half = band.curves[name], band.half[name]
+        columns |= {f"{name} [{unit}]": middle, f"{name} lower [{unit}]": middle - half}
+        columns[f"{name} upper [{unit}]"] = middle + half
+    return pd.DataFrame(columns)
+
+
 def errors_table(errors: StanceErrors) -> pd.DataFrame:
     """R² and root mean square error by quantity; of the stance's length the difference, simulated less measured."""
     rows = [(name, UNITS.get(name, "-"), r2, off, np.nan) for name, (r2, off) in errors.table.items()]
@@ -118,6 +138,10 @@ class ProsthesisSimulateResult(Result):
     ----------
     errors
         Beside the plate; None where none was named.
+    band
+        How far errors of the markers move the curves; None where no draws were asked for.
+    still
+        Standing still on the foot; None where that was not asked for.
     """
 
     options: ProsthesisSimulateOptions
@@ -125,6 +149,8 @@ class ProsthesisSimulateResult(Result):
     stance: Stance
     errors: StanceErrors | None
     numbers: Mapping[str, Number]
+    band: MarkerBand | None = None
+    still: StandingStill | None = None
 
     @property
     def time(self) -> Float[np.ndarray, " t"]:
@@ -152,19 +178,21 @@ class ProsthesisSimulateResult(Result):
         return self.stance.stored
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`stance` over time, `numbers`, and `errors` and `curves` where a plate was named."""
+        """`stance` over time, `numbers`, with a plate `errors` and `curves`, with draws `band`."""
         told = {"stance": stance_table(self.stance, self.options.side), "numbers": numbers_table(self.numbers)}
         if self.errors is not None:
             told |= {"errors": errors_table(self.errors), "curves": curves_table(self.errors)}
+        if self.band is not None:
+            told["band"] = band_table(self.band)
         return told
 
     def curves(self) -> dict[str, CurveSheet]:
         """`stance`: ground reaction and centre of pressure over time, beside the plate's, and what moves in the leg."""
-        return {"stance": stance_curves(self.stance, self.walk.plate)}
+        return {"stance": stance_curves(self.stance, self.walk.plate, self.band)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The moving foot with its forces and the path of the centre of pressure, curves, tables."""
-        page = stance_page(self.options, self.stance, self.walk.plate, self.tables(), self.sentences)
+        page = stance_page(self.options, self.stance, self.curves()["stance"], self.tables(), self.sentences)
         return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
@@ -190,7 +218,7 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
         raise InputError(
             o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
-    errors = None if walk.plate is None else stance_errors(found, walk.plate)
+    errors = None if walk.plate is None else stance_errors(found, walk.plate, SCORES[o.score])
     for line in doubts(found):
         reserve(line)
     if not limb.settled:
@@ -205,7 +233,59 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
         note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
         say(offset_words(walk.leg.offset))
-    return ProsthesisSimulateResult(options=o, walk=walk, stance=found, errors=errors, numbers=numbers)
+    band, still = _band(recorded, walk, found, o), _still(walk, o)
+    return ProsthesisSimulateResult(
+        options=o, walk=walk, stance=found, errors=errors, numbers=numbers, band=band, still=still
+    )
+
+
+def _band(recorded: RecordedWalk, walk: Walk, found: Stance, o: ProsthesisSimulateOptions) -> MarkerBand | None:
+    """The band of the draws, and what is said of it."""
+    if o.walks is None:
+        return None
+    with listener().progress("draws", o.walks) as step:
+        band = band_of(recorded, found, o, step)
+    if band is None:
+        return None
+    if band.lost:
+        reserve(f"{band.lost} of {o.walks} draws of the markers' errors could not be simulated, and are left out")
+    moved = {name: band.width(name, found.on) for name in UNITS_OF_BAND}
+    note("band", plain({"draws": band.drawn, "half_width": moved}))
+    say(
+        f"errors of the markers (SD {1e3 * (MARKER_ERROR if o.marker_error is None else o.marker_error):g} mm, "
+        f"{band.drawn} draws) move the vertical force by ±{moved['vertical']:.1%} BW and the centre of pressure by "
+        f"±{moved['cop_ground']:.1%} of the foot (95 %){_plate_inside(band, walk, found)}"
+    )
+    return band
+
+
+def _plate_inside(band: MarkerBand, walk: Walk, found: Stance) -> str:
+    """How much of the plate's vertical force the band holds, in words; nothing without a plate."""
+    if walk.plate is None:
+        return ""
+    weight = walk.leg.person.mass * GRAVITY
+    seen = at_times(found.time, walk.plate.time, walk.plate.force)[:, 1] / weight
+    share = band.inside("vertical", seen, found.on)
+    return f"; the plate's force is within that for {share:.0%} of the stance"
+
+
+def _still(walk: Walk, o: ProsthesisSimulateOptions) -> StandingStill | None:
+    """Ten seconds of standing still, and what is said of them; None where that was not asked for."""
+    if not o.stand_still:
+        return None
+    try:
+        still = standing_still(walk.leg, walk.foot, walk.fulcrum, bushing=bushing_of(o), machine_code=o.machine_code)
+    except ArithmeticError as error:
+        raise InputError(o.static, "`stand_still`", str(error), "check `mass` and `law`, or leave it out") from error
+    lasting = still.stance.time[-1]
+    note("stand_still", plain({"seconds": lasting, "missing_BW": still.missing, "slid_mm": 1e3 * still.slid}))
+    say(
+        f"standing still for {lasting:.0f} s: the foot carries {still.missing:+.2%} BW beside the half that it should, "
+        f"and slides {1e3 * still.slid:.1f} mm"
+    )
+    if abs(still.missing) > STUDY_STILL:
+        reserve(f"standing still, the force is {still.missing:+.2%} BW off; the study's model is within 0.1 %")
+    return still
 
 
 def found_words(found: Stance, told: Mapping[str, float]) -> str:

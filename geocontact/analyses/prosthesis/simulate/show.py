@@ -16,6 +16,7 @@ from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOp
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.motion import Course
 from geocontact.loads.ground import Stairs
@@ -69,13 +70,12 @@ IN_TURNS = (
 def stance_page(
     o: ProsthesisSimulateOptions,
     s: Stance,
-    plate: PlateStance | None,
+    curves: CurveSheet,
     tables: Mapping[str, pd.DataFrame],
     sentences: Sequence[str],
 ) -> Page:
     """The moving foot with its forces and the path of the centre of pressure, curves, tables."""
     shown = thinned(len(s.time), [s.force[:, 1], s.ankle_moment], most=FRAMES)
-    curves = stance_curves(s, plate)
     sections: list[Section] = [
         Scene(directions=DIRECTIONS, up=(0.0, 1.0, 0.0), view=(0.3, 0.2, 1.0), linkages=_lines(s, o, shown)),
         *curves.at(shown),
@@ -188,21 +188,39 @@ def _errors_table(errors: pd.DataFrame) -> Table:
     return frame_table("Compared with the force plate", errors.replace({"quantity": NAMES}))
 
 
-def stance_curves(s: Stance, plate: PlateStance | None) -> CurveSheet:
-    """Forces beside the plate's, centre of pressure, ankle, keel and socket over time."""
-    weight = s.motion.leg.person.mass * GRAVITY
+def stance_curves(s: Stance, plate: PlateStance | None, band: MarkerBand | None = None) -> CurveSheet:
+    """Forces beside the plate's, centre of pressure, ankle, keel and socket over time; with the band of the markers'
+    errors where there is one.
+    """
+    mass = s.motion.leg.person.mass
+    weight = mass * GRAVITY
     panels = []
-    for title, axis in (("Vertical force", 1), ("Fore-aft force, forward positive", 0)):
-        curves = [Curve("simulated", s.force[:, axis] / weight, stroke=0)]
+    for title, name, axis in (("Vertical force", "vertical", 1), ("Fore-aft force, forward positive", "fore_aft", 0)):
+        curves = [Curve("simulated", s.force[:, axis] / weight, *_ends(band, name), stroke=0)]
         if plate is not None:
             seen = at_times(s.time, plate.time, plate.force)[:, axis] / weight
             curves.append(Curve("plate", seen, stroke=INK))
         panels.append(Curves(title, "BW", curves))
-    along = [Curve(f"{name} point", 1e2 * s.along_foot(name)) for name in ("ground", "sphere")]
+    along = [
+        Curve("ground point", 1e2 * s.along_foot("ground"), *_ends(band, "cop_ground", 1e2)),
+        Curve("sphere point", 1e2 * s.along_foot("sphere")),
+    ]
     panels += [
         Curves("Centre of pressure from heel to toe", "% of the foot", along),
-        Curves("Ankle moment", "N m", [Curve("against dorsiflexion", s.ankle_moment)]),
+        Curves(
+            "Ankle moment", "N m", [Curve("against dorsiflexion", s.ankle_moment, *_ends(band, "ankle_moment", mass))]
+        ),
         Curves("Energy of the keel", "J", [Curve("stored", s.stored), Curve("lost", s.lost)]),
         Curves("Pistoning of the socket", "mm", [Curve("along the residual limb", 1e3 * s.pistoning)]),
     ]
     return CurveSheet(panels, Course("time", "s", s.time))
+
+
+def _ends(
+    band: MarkerBand | None, name: str, factor: float = 1.0
+) -> tuple[Float[np.ndarray, " t"] | None, Float[np.ndarray, " t"] | None]:
+    """Lower and upper end of the band of a quantity; None without one."""
+    if band is None:
+        return None, None
+    middle, half = band.curves[name], band.half[name]
+    return factor * (middle - half), factor * (middle + half)

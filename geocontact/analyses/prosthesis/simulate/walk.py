@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import add_input, reserve, say
+from geocontact.analyses.frame.collector import add_input, collecting, reserve, say
+from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
+from geocontact.analyses.prosthesis.scores import ROOM, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band, with_errors
 from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, simulated_walk
+from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.mocap.force_plates import plate_named
+from geocontact.io.recordings.socket_description import SocketDescription, read_socket
 from geocontact.loads.ground import Stairs
 
 
@@ -64,6 +70,9 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     foot = foot_of(o.foot)
     fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
     foot = foot_with_law(foot, o.law)
+    if o.socket_numbers is not None:
+        bushing_of(o)
+        add_input("`socket_numbers`", o.socket_numbers)
     standing = lab.markers("`static`", cast(Path, o.static))
     moving = None
     if o.functional is None:
@@ -119,7 +128,8 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
-        residual=o.residual_length,
+        residual=residual_of(recorded.standing, o.residual_length, o.residual_markers),
+        around=SCORES[o.score].around + ROOM,
     )
     if walk.hip is not None:
         say(f"hip centre from the functional trial: residual {1e3 * walk.hip.rms:.1f} mm (root mean square)")
@@ -128,9 +138,53 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     return walk
 
 
+MARKER_ERROR = 0.5e-3
+"""m; standard deviation of a marker's coordinate by default, as `prosthesis design` has it (invented)."""
+
+
+def band_of(
+    recorded: RecordedWalk,
+    found: Stance,
+    o: ProsthesisSimulateOptions,
+    step: Callable[[], None] = lambda: None,
+) -> MarkerBand | None:
+    """How far errors of the markers move a stance; None where that is not asked for, InputError where it cannot be.
+
+    Every draw goes the whole way: leg by the standing trial, motion by the walking one, simulation. The functional
+    trial has no errors.
+    """
+    if o.walks is None:
+        return None
+    sd = MARKER_ERROR if o.marker_error is None else o.marker_error
+
+    def again(rng: np.random.Generator) -> Stance:
+        standing, seen = (with_errors(each, sd, rng) for each in (recorded.standing, recorded.seen))
+        try:
+            with collecting(Record("prosthesis simulate", {})):
+                walk = walk_of(replace(recorded, standing=standing, seen=seen), o)
+                return simulated(walk, o).stance
+        except InputError as error:
+            raise ArithmeticError(error.what) from error
+
+    try:
+        return marker_band(found, again, o.walks, seed=o.seed or 0, step=step)
+    except ArithmeticError as error:
+        raise InputError(o.markers, "`walks`", str(error), "give a smaller `marker_error`") from error
+
+
 def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
-    """Socket on the residual limb."""
+    """Socket on the residual limb; InputError for a file that describes none."""
+    if o.socket_numbers is not None:
+        return _bushing(read_socket(o.socket_numbers))
     return SOCKET if o.socket == "as_meant" else PRINTED
+
+
+def _bushing(of: SocketDescription) -> Bushing:
+    """Six directions of a described socket, turns first; y is along the limb."""
+    k, c, m, d = of.turn_stiffness, of.turn_damping, of.shift_stiffness, of.shift_damping
+    along = m if of.piston_stiffness is None else of.piston_stiffness
+    damped = d if of.piston_damping is None else of.piston_damping
+    return Bushing((k, k, k, m, along, m), (c, c, c, d, damped, d))
 
 
 def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:

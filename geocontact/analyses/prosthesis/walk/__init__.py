@@ -1,0 +1,1 @@
+"""Both legs of a person with a below-knee prosthesis in motion."""
