@@ -38,11 +38,12 @@ def calibrated_phases(
         model = strapped(given.subject, given.sites, seated=given.seated)
     else:
         model = feet_on_ground(given.subject, seated=given.seated)
+    w = given.weights
     in_a = tuple(name for name in TRACKS if name in given.tracks)
     in_phase_a, in_phase_b = (None if progress is None else partial(progress, name) for name in "AB")
 
     def build_a(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
-        return phase_a(model, given.subject, trials, given.noise, free=given.free, tracks=in_a, start=start)
+        return phase_a(model, given.subject, trials, given.noise, free=given.free, tracks=in_a, start=start, weights=w)
 
     of_feet = [each.name for each in FOOT_PARAMETERS if each.name not in given.free]
     believed = believed_covariance(model.parameters, of_feet)
@@ -54,7 +55,7 @@ def calibrated_phases(
     def build_b(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
         strap = None if start is None else start[len(feet) :]
         noise, tracks = given.noise, given.tracks
-        return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap)
+        return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap, weights=w)
 
     known = held_covariance(first.numbers, first.phase.parameters)
     second = calibrated_phase("B", model, given.trials, given.noise, build_b, search, in_phase_b, known)

@@ -19,7 +19,7 @@ from geocontact.dynamics.collocation.problem import ControlProblem
 from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
-from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.trials import SHIPPED, StandingTrial
 
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
 OF_BOTH = "of both sides"
@@ -102,15 +102,23 @@ def size_numbers(sizes: PhaseSizes, prefix: str = "") -> list[Ran]:
         for name, value in vars(sizes.noise).items()
     ]
     rate = Ran(f"{prefix}rate", sizes.rate, "Hz", "invented", "samples a second at which a deviation counts as itself")
+    usual = SHIPPED
     jerk = [
-        Ran(f"{prefix}jerk {name}", size, unit, "invented", "size that counts as 1")
-        for name, size, unit in zip(("foot", "joints"), sizes.jerk, ("m/s^3 and rad/s^3", "rad/s^3"), strict=True)
+        Ran(f"{prefix}jerk {name}", size, unit, *_asked(size, own, "size that counts as 1"))
+        for name, size, unit, own in zip(
+            ("foot", "joints"), sizes.jerk, ("m/s^3 and rad/s^3", "rad/s^3"), usual.jerk, strict=True
+        )
     ]
     weights = [
-        Ran(f"{prefix}weight {name}", value, WEIGHT_UNITS[name], "invented", "of the square")
+        Ran(f"{prefix}weight {name}", value, WEIGHT_UNITS[name], *_asked(value, getattr(usual, name), "of the square"))
         for name, value in sizes.weights.items()
     ]
     return [*noise, rate, *jerk, *weights]
+
+
+def _asked(value: float, shipped: float, note: str) -> tuple[Source, str]:
+    """Source and note of a number that is invented unless the study gives another."""
+    return ("invented", note) if value == shipped else ("derived", f"{note}, as the study has it")
 
 
 def end_numbers(control: ControlProblem, prefix: str = "") -> list[Ran]:

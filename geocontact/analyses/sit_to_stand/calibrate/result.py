@@ -159,11 +159,12 @@ class StandingCalibrateResult(Result):
     def write_files(self, folder: Path) -> None:
         """Trajectories and model, the strap's case for `gap gather`; tables, figure, page."""
         values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
+        subject, sites = self.given.subject, self.given.sites
         for trial in self.trials:
-            write_motion(folder, self.given.subject, trial, values, self.found.solved)
-        write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
+            write_motion(folder, subject, trial, values, self.found.solved, sites)
+        write_standing_model(folder / "model.osim", subject, values, worn=self.given.exoskeleton, sites=sites)
         if self.phases[-1].name == "B":
-            write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
+            write_strap_case(folder / "gap", subject, self.given.trials, values, damping=sites[0].damping)
         super().write_files(folder)
 
 
