@@ -51,7 +51,7 @@ class Movement:
     contact
         Seat-off or seat contact by the chair's force [s]; not a number where there is none.
     before, after
-        Force on the chair at start and end [N]; not numbers where it was not recorded.
+        Force on the chair amid the rest before and after it [N]; not numbers where it was not recorded.
     rise
         By which the hip is higher at its end [m]; of a squat by which it goes down.
     agrees
@@ -96,7 +96,10 @@ def movements_of(time: Times, height: Times, chair: Times | None = None) -> tupl
     turns = [(a, b) for a, b in pairwise(ends) if level[a] != level[b]]
     speed = np.gradient(smooth, step)
     spans = [_span(speed, a, b) for a, b in turns]
-    passed = [_passage(time, smooth, chair, *span) for span in spans]
+    # the chair may be left before the hip moves, so that half of the rest to either side is looked at
+    amid = [0, *((one[1] + other[0]) // 2 for one, other in pairwise(spans)), len(time) - 1]
+    beside = list(pairwise(amid))
+    passed = [_passage(time, smooth, chair, *span, *rest) for span, rest in zip(spans, beside, strict=True)]
     return tuple(_with_squats(passed) if chair is not None else passed)
 
 
@@ -109,14 +112,15 @@ def _span(speed: Times, a: int, b: int) -> tuple[int, int]:
     return (int(before[-1]) if len(before) else 0), (int(top + after[0]) if len(after) else len(speed) - 1)
 
 
-def _passage(time: Times, height: Times, chair: Times | None, first: int, last: int) -> Movement:
+def _passage(time: Times, height: Times, chair: Times | None, first: int, last: int, rest: int, to: int) -> Movement:
+    """From the first to the last sample; the chair's force counts from one rest to the other."""
     up, none = bool(height[last] > height[first]), float("nan")
     kind: Kind = "rising" if up else "going down"
     rise = float(height[last] - height[first])
     made = Movement(kind, float(time[first]), float(time[last]), none, none, none, rise, True)
     if chair is None:
         return made
-    force = chair[first : last + 1]
+    force = chair[rest : to + 1]
     before, after, seated = float(force[0]), float(force[-1]), np.flatnonzero(force >= SEATED)
     if not len(seated):
         return replace(made, before=before, after=after)
@@ -124,9 +128,10 @@ def _passage(time: Times, height: Times, chair: Times | None, first: int, last: 
     off = np.flatnonzero(force < SEATED)
     at = seated[-1] + 1 if up else (off[-1] + 1 if len(off) else 0)
     agrees = bool(before >= SEATED > after) if up else bool(before < SEATED <= after)
-    contact = float(time[first + min(int(at), len(force) - 1)])
+    contact = float(time[rest + min(int(at), len(force) - 1)])
     kind = "standing up" if up else "sitting down"
-    return replace(made, kind=kind, before=before, after=after, contact=contact, agrees=agrees)
+    start, end = min(made.start, contact), max(made.end, contact)
+    return replace(made, kind=kind, start=start, end=end, before=before, after=after, contact=contact, agrees=agrees)
 
 
 def _with_squats(passed: Sequence[Movement]) -> list[Movement]:

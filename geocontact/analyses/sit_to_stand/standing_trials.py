@@ -30,7 +30,7 @@ from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import strap_sites
-from geocontact.standing_up.trial_forces import chair_load, seat_contact, seat_off, under_the_feet
+from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
 
@@ -124,7 +124,7 @@ def channels_of(
     """
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
-    time, q = _motion(files.coordinates, chain, f"{files.name} coordinates")
+    time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = _plates(files, place, time, c3d_unit, turn)
     used = _used(files, place, time, hip_height(subject, q), chair)
@@ -235,7 +235,7 @@ def _plates(
     plates = turned_plates(read_force_plates(files.plates, c3d_unit), turn, files.plates)
     add_input(f"{files.name} plates", files.plates, plates=len(plates))
     feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
-    _require_one_clock(files.plates, feet, time)
+    require_one_clock(files.plates, feet, time)
     if files.chair is None:
         return feet, None
     return feet, plate_named(plates, files.chair, files.plates, f"{place} chair")
@@ -251,9 +251,8 @@ def _used(files: StandingTrialFiles, place: str, time: Times, height: Times, cha
     if chair is None or files.plates is None or files.sitting or not used.any():
         return used
     first, last = time[used][[0, -1]]
-    # whoever stands up before the first sample, or sits down after the last one, is off the chair all along
-    own = chair.time >= first if files.task == "sitting down" else chair.time <= last
-    if own.any():
+    own, cut = (chair.time >= first) & (chair.time <= last), (files.start, files.end, files.movement) != (None,) * 3
+    if own.any() and not (cut and loaded[own].max() < SEATED):
         with _named(files.plates, chair):
             used &= _off_the_seat(files.task, time, chair.time[own], loaded[own])
     return used
@@ -292,7 +291,8 @@ def _doubt_task(files: StandingTrialFiles, height: Times) -> None:
         reserve(f'{files.name}: the hip moves as in {way}, and its task is {files.task}: write task = "{way}"')
 
 
-def _motion(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
+def motion_of_file(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
+    """Times and coordinates of a chain; InputError where columns lack, or where times are few or not even."""
     table = read_table(file)
     add_input(role, file, frames=len(table.time))
     known = columns_of(table, chain.joints)
@@ -309,14 +309,14 @@ def _motion(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
 
 
 def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:
-    own, rates = _motion(file, chain, f"{name} rates")
+    own, rates = motion_of_file(file, chain, f"{name} rates")
     if own[0] > time[0] + 1e-9 or own[-1] < time[-1] - 1e-9:
         what = f"runs from {own[0]:g} to {own[-1]:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, "", what, "put both on one clock")
     return np.column_stack([np.interp(time, own, column) for column in rates.T])
 
 
-def _require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:
+def require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:
     """A plate that was not recording while the markers were is on another clock."""
     begin, end = plate.time[[0, -1]]
     step = float(np.ptp(time)) / (len(time) - 1)
