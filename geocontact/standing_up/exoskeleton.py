@@ -136,7 +136,7 @@ def with_exoskeleton(
     p, torque = SX.sym("p", len(parameters)), SX.sym("torque", len(tree.names) - 3)
     along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
     chair = SX.sym("chair", COMPONENTS) if seated else None
-    return worn_model(tree, p, along, torque, parameters, strap, chair)
+    return worn_model(tree, p, along, torque, parameters, strap, chair, identified=subject.device.identified)
 
 
 def strapped(subject: Subject, sites: Sequence[StrapSite], *, seated: bool = False) -> StandingModel:
@@ -153,6 +153,8 @@ def worn_model(
     parameters: tuple[ContactParameter, ...],
     law: StrapLaw | None = None,
     chair: SX | None = None,
+    *,
+    identified: bool = False,
 ) -> StandingModel:
     """Both chains on the ground with a strap between them.
 
@@ -166,6 +168,8 @@ def worn_model(
         Of the strap; `thigh_strap` by default.
     chair
         Force and moment of a chair, given over time behind the other inputs.
+    identified
+        Whether the exoskeleton's bodies are those of its own motion.
     """
     feet = len(FOOT_PARAMETERS)
     ground = ground_on_feet(tree, p[:feet, :], GROUND_LAW)
@@ -185,7 +189,7 @@ def worn_model(
         strap.normal_energy,
         0 if chair is None else COMPONENTS,
         strap.elsewhere,
-        ModelConstants(tree.model, GROUND_LAW, strap.sites),
+        ModelConstants(tree.model, GROUND_LAW, strap.sites, identified),
     )
 
 

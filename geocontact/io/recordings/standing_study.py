@@ -89,14 +89,13 @@ class StandingTrialFiles(Document):
     torques
         Torques of all joints of both legs: .sto, [N m]; those of the exoskeleton may come from `motors` or `mode`.
     motors
-        Torques of the exoskeleton's motors: .sto, [N m]; its hinges have them less the friction of `device`.
+        Torques of the exoskeleton's motors: .sto, [N m], whose friction `device` has.
     mode
-        What the exoskeleton does: active (it helps), passive (its motors run and give nothing) or off; where it does
-        not help, its hinges have no torque but friction.
+        Active: it helps. Passive, its motors giving nothing, or off: its hinges have friction alone.
     task
-        What the person does; sitting down ends at seat contact, a squat has no chair.
+        Sitting down ends at seat contact, a squat has no chair.
     movement
-        Which movement of this task in the recording is used, counted from 1; all of the recording by default.
+        Which of the recording's movements of this task is used, from 1.
     strap
         Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan.
     strap_shank, strap_pelvis
@@ -158,15 +157,14 @@ class StandingStudy(Document):
     exoskeleton
         Whether it was worn.
     device
-        numbers.csv of `sit-to-stand device`: dynamics of the exoskeleton, in place of the shipped ones.
+        numbers.csv of `sit-to-stand device`, in place of the shipped exoskeleton.
     masses
-        Masses of the exoskeleton's bodies, both sides, which no motion of it alone identifies.
+        Masses of the exoskeleton's bodies, both sides.
     straps
-        Dashpots of one strap, across and along, and in turning; 10 N s/m and 0.1 N m s/rad by default, the study's.
+        Dashpots of one strap; the study's 10 N s/m and 0.1 N m s/rad by default.
     weights
-        What weighs the cost besides the noise: squared torques in phase A (1e-6 by default), squared energy of the
-        straps in B and C (1e-3), and sizes of the jerk of foot (20) and joints (60). The study does not print its own:
-        these are ours.
+        Squared torques in phase A (1e-6 by default), squared energy of the straps in B and C (1e-3), sizes of the jerk
+        of foot (20) and joints (60): ours, as the study does not print its own.
     noise
         Standard deviation of one sample; `rate` is that of turns and, in m/s, of the foot's place.
     free
