@@ -93,7 +93,7 @@ def movements_of(time: Times, height: Times, chair: Times | None = None) -> tupl
         return ()
     level = np.where(smooth < low + LOW * size, -1, np.where(smooth > low + HIGH * size, 1, 0))
     ends = np.flatnonzero(level)
-    turns = [(a, b) for a, b in pairwise(ends) if level[a] != level[b]]
+    turns = [(int(a), int(b)) for a, b in pairwise(ends) if level[a] != level[b]]
     speed = np.gradient(smooth, step)
     spans = [_span(speed, a, b) for a, b in turns]
     # the chair may be left before the hip moves, so that half of the rest to either side is looked at

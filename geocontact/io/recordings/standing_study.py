@@ -87,7 +87,7 @@ class StandingTrialFiles(Document):
     plates
         Force plates.
     torques
-        Torques of all joints of both legs: .sto, [N m]; those of the exoskeleton may come from `motors` or `mode`.
+        Torques of all joints of both legs: .sto, [N m]; of the exoskeleton also by `motors` or `mode`.
     motors
         Torques of the exoskeleton's motors: .sto, [N m], whose friction `device` has.
     mode
@@ -164,7 +164,7 @@ class StandingStudy(Document):
         Dashpots of one strap; the study's 10 N s/m and 0.1 N m s/rad by default.
     weights
         Squared torques in phase A (1e-6 by default), squared energy of the straps in B and C (1e-3), sizes of the jerk
-        of foot (20) and joints (60): ours, as the study does not print its own.
+        of foot (20) and joints (60): ours, the study prints none.
     noise
         Standard deviation of one sample; `rate` is that of turns and, in m/s, of the foot's place.
     free
