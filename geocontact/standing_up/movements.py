@@ -39,7 +39,7 @@ Times = Float[np.ndarray, " t"]
 
 
 @dataclass(frozen=True)
-class Movement:
+class RecordedMovement:
     """One movement of a recording.
 
     Parameters
@@ -69,12 +69,12 @@ class Movement:
 
 
 def hip_height(subject: Subject, q: Float[np.ndarray, "t n"]) -> Times:
-    """Of the hip over the ankle [m], from coordinates of `chain.COORDINATES`."""
+    """Height of the hip over the ankle [m], from coordinates of `chain.COORDINATES`."""
     shank, thigh = q[:, 2] + q[:, 3], q[:, 2] + q[:, 3] + q[:, 4]
     return np.asarray(subject.height * (SHANK.length * np.cos(shank) + THIGH.length * np.cos(thigh)))
 
 
-def movements_of(time: Times, height: Times, chair: Times | None = None) -> tuple[Movement, ...]:
+def movements_of(time: Times, height: Times, chair: Times | None = None) -> tuple[RecordedMovement, ...]:
     """All of them, in order; none where the hip hardly moves.
 
     ValueError where the recording cannot be filtered.
@@ -112,12 +112,14 @@ def _span(speed: Times, a: int, b: int) -> tuple[int, int]:
     return (int(before[-1]) if len(before) else 0), (int(top + after[0]) if len(after) else len(speed) - 1)
 
 
-def _passage(time: Times, height: Times, chair: Times | None, first: int, last: int, rest: int, to: int) -> Movement:
+def _passage(
+    time: Times, height: Times, chair: Times | None, first: int, last: int, rest: int, to: int
+) -> RecordedMovement:
     """From the first to the last sample; the chair's force counts from one rest to the other."""
     up, none = bool(height[last] > height[first]), float("nan")
     kind: Kind = "rising" if up else "going down"
     rise = float(height[last] - height[first])
-    made = Movement(kind, float(time[first]), float(time[last]), none, none, none, rise, True)
+    made = RecordedMovement(kind, float(time[first]), float(time[last]), none, none, none, rise, True)
     if chair is None:
         return made
     force = chair[rest : to + 1]
@@ -134,9 +136,9 @@ def _passage(time: Times, height: Times, chair: Times | None, first: int, last: 
     return replace(made, kind=kind, start=start, end=end, before=before, after=after, contact=contact, agrees=agrees)
 
 
-def _with_squats(passed: Sequence[Movement]) -> list[Movement]:
+def _with_squats(passed: Sequence[RecordedMovement]) -> list[RecordedMovement]:
     """Going down and rising without a chair, one after the other, are a squat; alone they contradict the chair."""
-    found: list[Movement] = []
+    found: list[RecordedMovement] = []
     for each in passed:
         last = found[-1] if found else None
         if last is not None and (last.kind, each.kind) == ("going down", "rising") and each.start - last.end <= PAUSE:

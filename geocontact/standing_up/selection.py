@@ -58,7 +58,7 @@ class SelectedParameter:
 
 
 def trials_information(phase: PhaseProblem, found: CollocationResult) -> Information:
-    """Of the trials on the parameters that a phase frees, in parts of their prior, about an answer of their motion.
+    """Information of the trials on the parameters that a phase frees, in parts of their prior, about an answer.
 
     ValueError where the curvature does not exist.
     """

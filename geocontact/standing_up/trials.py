@@ -200,12 +200,14 @@ def standing_up(
     intervals: int = 50,
     chair: Course | None = None,
     down: bool = False,
+    squat: bool = False,
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
 
     `assistance` is what the exoskeleton's torques are to be of the person's. Coordinates after both chains', such as a
     toe joint's, have no torque and are to stay at 0. `chair` is the force of one over time, for a model that has it.
-    `down` has the person sit down instead, the same course from its end.
+    `down` has the person sit down instead, the same course from its end; `squat` goes down and up again, in half
+    of the time each.
     """
     from casadi import SX, sumsqr
 
@@ -228,7 +230,8 @@ def standing_up(
     alone = rising(seconds, seated, planted)
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
-        q = alone(seconds - time if down else time)
+        # in a squat from the end to the beginning of the course and back, twice as fast
+        q = alone(np.abs(seconds - 2.0 * time) if squat else seconds - time if down else time)
         return np.hstack([q, q[:, 3 : 3 + torques - 3], np.zeros((len(q), n - 3 - torques))])
 
     def given(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t w"]:

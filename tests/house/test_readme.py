@@ -25,6 +25,7 @@ NOT_SHOWN = {
     "prosthesis compare": "needs a study file of three settings: its how-to makes one",
     "scale": "its page is that of `prosthesis scale`",
     "shoulder study": "lasts minutes",
+    "sit-to-stand movements": "two curves with shaded stretches, as of gait events",
 }
 """Commands without a picture, and why."""
 

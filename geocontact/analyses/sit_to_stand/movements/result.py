@@ -32,7 +32,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.movements import LEAST_RANGE, Movement, hip_height, movements_of
+from geocontact.standing_up.movements import LEAST_RANGE, RecordedMovement, hip_height, movements_of
 from geocontact.standing_up.trial_forces import SEATED
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Shade
 from geocontact.view.page.content import Section
@@ -78,7 +78,7 @@ def read(o: StandingMovementsOptions) -> StandingRecording:
     return StandingRecording(time, height, np.interp(time, plate.time, force))
 
 
-def numbered(movements: Sequence[Movement]) -> list[tuple[str, Movement]]:
+def numbered(movements: Sequence[RecordedMovement]) -> list[tuple[str, RecordedMovement]]:
     """Each with its name: its kind, and which of this kind it is."""
     seen: Counter[str] = Counter()
     named = []
@@ -94,7 +94,7 @@ class StandingMovementsResult(Result):
 
     options: StandingMovementsOptions
     given: StandingRecording
-    movements: tuple[Movement, ...]
+    movements: tuple[RecordedMovement, ...]
 
     @property
     def starts(self) -> dict[str, float]:
@@ -192,7 +192,7 @@ def run(given: StandingRecording, o: StandingMovementsOptions) -> StandingMoveme
     return StandingMovementsResult(options=o, given=given, movements=found)
 
 
-def _event(one: Movement) -> str:
+def _event(one: RecordedMovement) -> str:
     return "seat-off" if one.kind == "standing up" else "seat contact"
 
 
