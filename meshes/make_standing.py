@@ -17,6 +17,7 @@ from meshes.standing_study import synthetic_study
 FOLDERS = {
     "standing_up": {},
     "standing_up_exoskeleton": {"exoskeleton": True},
+    "standing_up_sites": {"exoskeleton": True, "sites": True, "seed": 36},
     "standing_up_held_out": {"exoskeleton": True, "held_out": True, "seed": 35},
 }
 """What is made, by folder."""

@@ -49,13 +49,22 @@ def _worn(
     """Torques of all joints, and the strap's normal force; before seat-off what they are there."""
     if trial.torque is None or trial.strap is None:
         raise ValueError(f"{trial.name} has no torques or no strap")
-    torque, strap = (np.vstack([np.outer(sitting, of[0]), of]) for of in (trial.torque, trial.strap[:, None]))
+    torque = np.vstack([np.outer(sitting, trial.torque[0]), trial.torque])
     columns = {"time": time} | dict(zip(names[3:], torque.T, strict=True))
-    rows = [f"{t:.6g},{f:.4f}" for t, f in zip(time, strap[:, 0], strict=True)]
-    return {
-        f"{trial.name}_torques.sto": _storage(f"synthetic {trial.name} torques", columns, 3, "no"),
-        f"{trial.name}_strap.csv": "\n".join(["time [s],normal [N]", *rows]) + "\n",
-    }
+    files = {f"{trial.name}_torques.sto": _storage(f"synthetic {trial.name} torques", columns, 3, "no")}
+    for key, own in _mats(trial).items():
+        force = np.r_[np.full(len(sitting), own[0]), own]
+        rows = [f"{t:.6g},{f:.4f}" for t, f in zip(time, force, strict=True)]
+        files[f"{trial.name}_{key}.csv"] = "\n".join(["time [s],normal [N]", *rows]) + "\n"
+    return files
+
+
+def _mats(trial: StandingTrial) -> dict[str, Float[np.ndarray, " t"]]:
+    """Normal forces that were recorded, by the key that a study has for them."""
+    if trial.strap is None:
+        return {}
+    forces = {"strap": trial.strap} | {f"strap_{site}": force for site, force in trial.elsewhere.items()}
+    return {key: force for key, force in forces.items() if np.isfinite(force).all()}
 
 
 def _time(trial: StandingTrial) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " s"]]:
@@ -85,7 +94,8 @@ def _description(study: SyntheticStudy) -> str:
     for trial in study.trials:
         lines += ["", "[[trials]]", f'name = "{trial.name}"']
         lines += [f'{kind} = "{trial.name}_{kind}.sto"' for kind in ("coordinates", "rates")]
-        lines += [f'torques = "{trial.name}_torques.sto"', f'strap = "{trial.name}_strap.csv"'] if worn else []
+        lines += [f'torques = "{trial.name}_torques.sto"'] if worn else []
+        lines += [f'{key} = "{trial.name}_{key}.csv"' for key in _mats(trial)]
         lines += [f'plates = "{trial.name}_plates.mot"', 'feet = "feet_force"', 'chair = "chair_force"']
     return "\n".join(lines) + "\n"
 

@@ -220,7 +220,7 @@ def holds(marks: list[Any], kind: Any) -> str:
     elif get_origin(kind) is not None:
         words = "names with values"
     else:
-        words = {str: "text", bool: "true or false", float: "number"}[kind]
+        words = {str: "text", bool: "true or false", float: "number", int: "whole number"}[kind]
     return ", ".join([words, *_bounds(marks)])
 
 

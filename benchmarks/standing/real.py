@@ -27,7 +27,7 @@ from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, Subject, ground_on_feet, leg_chain
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial
 
 HERE = Path(__file__).resolve().parents[1]
 FEET = {"right": "R", "left": "L"}
@@ -44,6 +44,7 @@ NOISE = StandingNoise(length=5e-3, angle=float(np.radians(2.0)), rate=0.1, force
 """What is told; markers on soft tissue, and ankle and hip by one marker each."""
 JERK = (1500.0, 6000.0)
 """Of foot and joints [m/s^3, rad/s^3], some times those of a step."""
+JERKY = CostWeights(foot_jerk=JERK[0], joint_jerk=JERK[1])
 LEG = ("fore_aft", "upwards", "foot", "shank", "thigh")
 
 
@@ -81,7 +82,7 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
             if not free:
                 of = {"free": (), "tracks": tracks, "small": {}, "held": at, "start": at, "jerk_sizes": JERK}
                 return standing_phase(model, subject, these, NOISE, **of)
-            return phase_a(model, subject, these, NOISE, free=free, tracks=tracks, start=begin, jerk_sizes=JERK)
+            return phase_a(model, subject, these, NOISE, free=free, tracks=tracks, start=begin, weights=JERKY)
 
         one = calibrated_phase("A", model, own, NOISE, build, search)
         start = one.found.p

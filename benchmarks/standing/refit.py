@@ -19,9 +19,9 @@ from geocontact.dynamics.sphere_contact import together
 from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import STRAP, STRAP_PARAMETERS, Strap, thigh_strap, with_exoskeleton
 from geocontact.standing_up.phase import PhaseProblem, standing_phase
-from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.phases import TRACKS_B, phase_b
 from geocontact.standing_up.strap_sites import ContactParameter
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, seen_in
+from geocontact.standing_up.trials import LITTLE_ENERGY, StandingNoise, StandingTrial, seen_in
 
 FURTHER = {
     "preload": ContactParameter("preload", "N", 0.0, 20.0, -100.0, 100.0),

@@ -52,9 +52,9 @@ def one_noise(world: Any, true: Any, seed: int) -> dict[str, Any]:
     from geocontact.standing_up.contact_numbers import contact_numbers, held_covariance
     from geocontact.standing_up.exoskeleton import STRAP, with_exoskeleton
     from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, standing_phase
-    from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_a, phase_b
+    from geocontact.standing_up.phases import TRACKS_B, phase_a, phase_b
     from geocontact.standing_up.strap_sites import searched, usual
-    from geocontact.standing_up.trials import StandingNoise, with_noise
+    from geocontact.standing_up.trials import LITTLE_ENERGY, StandingNoise, with_noise
 
     subject, noise = Subject(world.mass, world.height), StandingNoise()
     model, count = with_exoskeleton(subject), len(FOOT_PARAMETERS)

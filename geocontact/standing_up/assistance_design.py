@@ -21,11 +21,11 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.standing_up.assistance_room import ROOM
-from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS
+from geocontact.standing_up.assisted_model import EVERY_ASSISTED
 from geocontact.standing_up.assisted_movement import MEASURES, ORDER, Movement, Movements, StoppedByHandError
 
 Vector = Float[np.ndarray, " _"]
-NAMES = tuple(each.name for each in ASSISTED_PARAMETERS)
+NAMES = tuple(each.name for each in EVERY_ASSISTED)
 STRAP, KNEE = MEASURES.index("strap"), MEASURES.index("knee")
 TOLERANCE = 1e-7
 FIRST = 0.15
@@ -48,7 +48,7 @@ class HelpTask:
     vary
         Names of `ROOM`.
     aim
-        One of `MEASURES`: strap or energy.
+        One of the measures: energy, or the strap at the thigh (strap), shank or pelvis.
     knee
         True peak of the person's knee torque, both legs, at most [N m].
     """
@@ -65,7 +65,7 @@ class HelpTask:
     @property
     def ends(self) -> tuple[Vector, Vector]:
         """What is searched at both ends of the room."""
-        chosen = [(ASSISTED_PARAMETERS[k], *ROOM[name][1:]) for k, name in zip(self.index, self.vary, strict=True)]
+        chosen = [(EVERY_ASSISTED[k], *ROOM[name][1:]) for k, name in zip(self.index, self.vary, strict=True)]
         low = np.array([each.searched(least) for each, least, _ in chosen])
         return low, np.array([each.searched(most) for each, _, most in chosen])
 
@@ -107,7 +107,7 @@ class HelpDesign:
     @property
     def value(self) -> float:
         """Value of the aim, the worst of the sets."""
-        return max(float(each.asked.sizes[MEASURES.index(self.task.aim)]) for each in self.movements)
+        return max(each.asked.at(self.task.aim) for each in self.movements)
 
 
 def designed(movements: Movements, sets: Float[np.ndarray, "s p"], task: HelpTask, iterations: int = 60) -> HelpDesign:
@@ -137,7 +137,7 @@ def _on_one_mesh(movements: Movements, sets: Float[np.ndarray, "s p"], task: Hel
     from scipy.optimize import minimize
 
     low, high = task.ends
-    room, aim = high - low, MEASURES.index(task.aim)
+    room, aim = high - low, task.aim
     known: dict[bytes, tuple[Movement, ...]] = {}
 
     def at(part: Vector) -> tuple[Movement, ...]:
@@ -147,7 +147,7 @@ def _on_one_mesh(movements: Movements, sets: Float[np.ndarray, "s p"], task: Hel
             known[key] = tuple(movements.at(row) for row in rows)
         return known[key]
 
-    def worst(part: Vector, measure: int) -> tuple[float, Vector]:
+    def worst(part: Vector, measure: str) -> tuple[float, Vector]:
         return _worst(at(part), measure)
 
     start = np.clip((sets[0, task.index] - low) / room, 0.0, 1.0)
@@ -217,13 +217,13 @@ def _knees(movements: Sequence[Movement]) -> tuple[Vector, Float[np.ndarray, "k 
     return np.abs(torque), np.sign(torque)[:, None] * slopes
 
 
-def _each(movements: Sequence[Movement], measure: int) -> tuple[Vector, Float[np.ndarray, "s p"]]:
+def _each(movements: Sequence[Movement], measure: str) -> tuple[Vector, Float[np.ndarray, "s p"]]:
     """One measure of every set, and its slopes."""
-    sizes = np.array([one.asked.sizes[measure] for one in movements])
-    return sizes, np.stack([one.asked.slopes[measure] for one in movements])
+    sizes = np.array([one.asked.at(measure) for one in movements])
+    return sizes, np.stack([one.asked.slopes[one.asked.measures.index(measure)] for one in movements])
 
 
-def _worst(each: Sequence[Movement], measure: int) -> tuple[float, Vector]:
+def _worst(each: Sequence[Movement], measure: str) -> tuple[float, Vector]:
     """Smooth maximum over the sets, and its slope."""
     values, slopes = _each(each, measure)
     most = float(values.max())

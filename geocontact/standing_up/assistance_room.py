@@ -9,5 +9,13 @@ ROOM: dict[str, tuple[str, float, float]] = {
     "normal": ("strap normal", 1e3, 2e4),
     "tangential": ("strap tangential", 5e2, 1e4),
     "turning": ("strap turning", 5.0, 100.0),
+    "shank_place": ("shank strap place", 0.10, 0.38),
+    "shank_normal": ("shank strap normal", 1e3, 2e4),
+    "shank_tangential": ("shank strap tangential", 5e2, 1e4),
+    "shank_turning": ("shank strap turning", 5.0, 100.0),
+    "pelvis_place": ("pelvis strap place", 0.0, 0.22),
+    "pelvis_normal": ("pelvis strap normal", 1e3, 2e4),
+    "pelvis_tangential": ("pelvis strap tangential", 5e2, 1e4),
+    "pelvis_turning": ("pelvis strap turning", 5.0, 100.0),
 }
 """What may be sought: parameter, and between which values it can be built, in its unit; invented."""

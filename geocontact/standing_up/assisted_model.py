@@ -21,12 +21,12 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
 from geocontact.dynamics.symbols import residual
-from geocontact.dynamics.tree import tree_of
-from geocontact.standing_up.chain import COORDINATES, Subject
-from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, StrapLaw, two_chains, worn_model
+from geocontact.dynamics.tree import Tree, tree_of
+from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, Subject
+from geocontact.standing_up.exoskeleton import WORN_PARAMETERS, Strap, StrapLaw, straps_at, two_chains, worn_model
 from geocontact.standing_up.phase import smooth_coordinates
 from geocontact.standing_up.standing_model import StandingModel
-from geocontact.standing_up.strap_sites import ContactParameter
+from geocontact.standing_up.strap_sites import PELVIS_STRAP, SHANK_STRAP, THIGH_STRAP, ContactParameter, StrapSite
 from geocontact.standing_up.trials import StandingTrial, problem_scales, seen_in, standing_trial
 
 if TYPE_CHECKING:
@@ -41,6 +41,9 @@ ASSISTANCE_PARAMETERS = (
 )
 """Share of the person's knee torque, and where in the movement it is most."""
 ASSISTED_PARAMETERS = (*WORN_PARAMETERS, *ASSISTANCE_PARAMETERS)
+FURTHER_SITES = (SHANK_STRAP, PELVIS_STRAP)
+EVERY_ASSISTED = (*ASSISTED_PARAMETERS, *(each for site in FURTHER_SITES for each in site.parameters))
+"""With straps elsewhere: those of both further sites, of which a site that is not there has no effect."""
 SHARE, TIMING = (len(WORN_PARAMETERS) + k for k in range(2))
 KNEE = 1
 """Index of the knee among the torques."""
@@ -74,16 +77,40 @@ class AssistedModel:
         return range(1, 1 + len(TORQUES))
 
 
-def assisted_model(subject: Subject, strap: StrapLaw | None = None, width: float = WIDTH) -> AssistedModel:
-    """The model of a person who wears the exoskeleton, with the strap that is calibrated unless another is."""
+def assisted_parameters(sites: Sequence[StrapSite]) -> tuple[ContactParameter, ...]:
+    """Parameters of the model with straps at these sites, the first of which is the thigh."""
+    return ASSISTED_PARAMETERS if len(sites) == 1 else EVERY_ASSISTED
+
+
+def assisted_model(
+    subject: Subject,
+    strap: StrapLaw | None = None,
+    width: float = WIDTH,
+    sites: Sequence[StrapSite] = (THIGH_STRAP,),
+) -> AssistedModel:
+    """The model of a person who wears the exoskeleton, with the straps that are calibrated unless another law is."""
     from casadi import SX, exp, vertcat
 
-    p, part, torque = SX.sym("p", len(ASSISTED_PARAMETERS)), SX.sym("part"), SX.sym("torque", len(TORQUES))
+    parameters = assisted_parameters(sites)
+    p, part, torque = SX.sym("p", len(parameters)), SX.sym("part"), SX.sym("torque", len(TORQUES))
     helped = p[SHARE] * exp(-0.5 * ((part - p[TIMING]) / width) ** 2) * torque[KNEE]
     along = {name: torque[k] for k, name in enumerate(("ankle", "knee", "hip", "exo_hip"))} | {"exo_knee": helped}
     tree = tree_of(two_chains(subject))
-    standing = worn_model(tree, p, along, vertcat(part, torque), ASSISTED_PARAMETERS, strap)
+    law = strap or _at_sites(sites)
+    standing = worn_model(tree, p, along, vertcat(part, torque), parameters, law, identified=subject.device.identified)
     return AssistedModel(standing, helped, width)
+
+
+def _at_sites(sites: Sequence[StrapSite]) -> StrapLaw:
+    """The law of all straps, of what is searched behind the feet's parameters: the thigh's, the help, the others."""
+    names = [each.name for each in EVERY_ASSISTED[len(FOOT_PARAMETERS) :]]
+    at = [names.index(name) for site in sites for name in site.names]
+    law = straps_at(sites)
+
+    def chosen(tree: Tree, p: SX) -> Strap:
+        return law(tree, p[at, :])
+
+    return chosen
 
 
 def seen_assisted(
@@ -155,7 +182,7 @@ def habit(
         data=wanted,
         jerk=jerk,
         cost=cost,
-        parameter_names=[each.name for each in ASSISTED_PARAMETERS],
+        parameter_names=[each.name for each in model.standing.parameters],
     )
     made = tuple(_trial(model, trial, p, sizes.degree) for trial in trials)
     scales = problem_scales(subject, n)

@@ -38,12 +38,17 @@ MEASURES = ("strap", "knee", "energy", "shear")
 straps' springs [J], smooth peak of one strap's force along the thigh [N]."""
 PLACES = 9
 """Places of an interval, evenly from its start to its end: where true peaks are looked for."""
-UNITS = {"strap": "N", "knee": "N m", "energy": "J", "shear": "N"}
+UNITS = {"strap": "N", "knee": "N m", "energy": "J", "shear": "N", "shank": "N", "pelvis": "N"}
+
+
+def measures_of(model: AssistedModel) -> tuple[str, ...]:
+    """`MEASURES`, then the smooth peak of one strap's normal force at each further site [N], by its name."""
+    return (*MEASURES, *model.standing.elsewhere)
 
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """What one movement asks for, in the order of `MEASURES`.
+    """What one movement asks for, in the order of `measures`.
 
     Parameters
     ----------
@@ -59,6 +64,8 @@ class Asked:
         Its derivatives by what is searched of each parameter.
     order, places
         Of the norm that smooths; of an interval, where true peaks are looked for.
+    measures
+        Names of what is asked for.
     """
 
     sizes: Float[np.ndarray, " k"]
@@ -68,6 +75,15 @@ class Asked:
     knee_slopes: Float[np.ndarray, "t p"]
     order: int
     places: int
+    measures: tuple[str, ...] = MEASURES
+
+    def at(self, measure: str) -> float:
+        """Smooth peak, or mean energy."""
+        return float(self.sizes[self.measures.index(measure)])
+
+    def largest_at(self, measure: str) -> float:
+        """True peak."""
+        return float(self.largest[self.measures.index(measure)])
 
 
 def asked(
@@ -90,7 +106,7 @@ def asked(
     peaks[energy] = values[energy] @ weights
     there = [_at_places(model, problem, found, k, places) for k in range(len(found.motions))]
     everywhere = np.concatenate([each[0] for each in there], axis=1)
-    by, of_knee = np.full((len(MEASURES), len(found.p)), np.nan), np.full((everywhere.shape[1], len(found.p)), np.nan)
+    by, of_knee = np.full((len(values), len(found.p)), np.nan), np.full((everywhere.shape[1], len(found.p)), np.nan)
     if slopes:
         along = responses(problem, found)
         changes = np.concatenate([each.followed(one) for each, one in zip(parts, along, strict=True)], axis=2)
@@ -101,7 +117,9 @@ def asked(
         of_knee = np.concatenate(
             [_knee_slopes(model, one.controls, each[1]) for one, each in zip(along, there, strict=True)]
         )
-    return Asked(peaks, by, np.abs(everywhere).max(axis=1), everywhere[knee], of_knee, order, places)
+    return Asked(
+        peaks, by, np.abs(everywhere).max(axis=1), everywhere[knee], of_knee, order, places, measures_of(model)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,12 +156,14 @@ def _over_points(model: AssistedModel, problem: ControlProblem, found: Collocati
 
 
 def _outputs(model: AssistedModel, problem: ControlProblem) -> SX:
-    """In the order of `MEASURES`: of states, controls and parameters."""
+    """In the order of `measures_of`: of states, controls and parameters."""
     from casadi import vertcat
 
     standing = model.standing
     energy = standing.energy + standing.normal_energy
-    seen: SX = vertcat(standing.strap, problem.system.u[standing.count + KNEE], energy, standing.shear)
+    seen: SX = vertcat(
+        standing.strap, problem.system.u[standing.count + KNEE], energy, standing.shear, *standing.elsewhere.values()
+    )
     return seen
 
 

@@ -37,6 +37,7 @@ from geocontact.standing_up.contact_numbers import (
 )
 from geocontact.standing_up.phase import RATE, JudgedMotion, PhaseProblem, cost_shares, judged
 from geocontact.standing_up.profile import PhaseProfile, profiles
+from geocontact.standing_up.selection import SelectedParameter
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, usual
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
@@ -172,6 +173,8 @@ class PhaseSearch:
         Probability of the intervals.
     profiles
         Points to either side of each parameter at which the others are sought again; 0 for none.
+    select
+        Whether those of the candidates are free that the trials identify together.
     """
 
     options: SolverOptions
@@ -181,6 +184,7 @@ class PhaseSearch:
     seed: int = 0
     level: float = 0.95
     profiles: int = 0
+    select: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,6 +211,8 @@ class CalibratedPhase:
         Why there are no intervals; empty where there are.
     profiles
         Of the parameters as found, before any correction.
+    selection
+        Of all candidates, which the trials identify together; none where nothing was asked of it.
     """
 
     name: str
@@ -220,6 +226,7 @@ class CalibratedPhase:
     misfit: float
     doubt: str = ""
     profiles: tuple[PhaseProfile, ...] = ()
+    selection: tuple[SelectedParameter, ...] = ()
 
     @property
     def certified(self) -> bool:

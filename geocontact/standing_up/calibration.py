@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.dynamics.collocation.solve import Progress
 from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.chain import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
@@ -22,12 +24,16 @@ from geocontact.standing_up.numbers_that_ran import (
 )
 from geocontact.standing_up.phase import PhaseProblem, sizes_of
 from geocontact.standing_up.phases import TRACKS, phase_a, phase_b
+from geocontact.standing_up.selection import selected, trials_information
+from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trial_result import TrialResult, trial_result
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials, seen_in
 
 PhaseProgress = Callable[[str, int, float, float], None]
 """Gets the phase, the iteration, the objective and the largest residual."""
 Start = Float[np.ndarray, " p"] | None
+BuildFree = Callable[[Sequence[StandingTrial], Start, Sequence[str]], PhaseProblem]
+"""Makes a phase of trials, of where its parameters start, and of the names of those that are free."""
 
 
 def calibrated_phases(
@@ -38,27 +44,73 @@ def calibrated_phases(
         model = strapped(given.subject, given.sites, seated=given.seated)
     else:
         model = feet_on_ground(given.subject, seated=given.seated)
+    w = given.weights
     in_a = tuple(name for name in TRACKS if name in given.tracks)
     in_phase_a, in_phase_b = (None if progress is None else partial(progress, name) for name in "AB")
 
-    def build_a(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
-        return phase_a(model, given.subject, trials, given.noise, free=given.free, tracks=in_a, start=start)
+    def build_a(trials: Sequence[StandingTrial], start: Start, free: Sequence[str]) -> PhaseProblem:
+        return phase_a(model, given.subject, trials, given.noise, free=free, tracks=in_a, start=start, weights=w)
 
-    of_feet = [each.name for each in FOOT_PARAMETERS if each.name not in given.free]
-    believed = believed_covariance(model.parameters, of_feet)
-    first = calibrated_phase("A", model, given.trials, given.noise, build_a, search, in_phase_a, believed)
+    every = [each.name for each in FOOT_PARAMETERS]
+
+    def held_in_a(free: Sequence[str]) -> Float[np.ndarray, "p p"]:
+        return believed_covariance(model.parameters, [name for name in every if name not in free])
+
+    first = _phase("A", model, given, build_a, (given.free, every), search, in_phase_a, held_in_a)
     if not given.exoskeleton or not first.found.solved:
         return (first,)
     feet, straps = first.found.p[: len(FOOT_PARAMETERS)], [name for site in given.sites for name in site.names]
 
-    def build_b(trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
+    def build_b(trials: Sequence[StandingTrial], start: Start, free: Sequence[str]) -> PhaseProblem:
         strap = None if start is None else start[len(feet) :]
         noise, tracks = given.noise, given.tracks
-        return phase_b(model, given.subject, trials, noise, feet, free=straps, tracks=tracks, start=strap)
+        return phase_b(model, given.subject, trials, noise, feet, free=free, tracks=tracks, start=strap, weights=w)
 
     known = held_covariance(first.numbers, first.phase.parameters)
-    second = calibrated_phase("B", model, given.trials, given.noise, build_b, search, in_phase_b, known)
+
+    def held_in_b(free: Sequence[str]) -> Float[np.ndarray, "p p"]:
+        return known + believed_covariance(model.parameters, [name for name in straps if name not in free])
+
+    second = _phase("B", model, given, build_b, (straps, straps), search, in_phase_b, held_in_b)
     return first, second
+
+
+def _phase(
+    name: str,
+    model: StandingModel,
+    given: StandingUpTrials,
+    build: BuildFree,
+    names: tuple[Sequence[str], Sequence[str]],
+    search: PhaseSearch,
+    progress: Progress | None,
+    held: Callable[[Sequence[str]], Float[np.ndarray, "p p"]],
+) -> CalibratedPhase:
+    """A phase with what is usually free, and which of all candidates its trials identify; `names` are both.
+
+    Where the search selects, the phase is solved again with those, and their selection is that of the first answer.
+    """
+    usual_free, every = names
+
+    def solved(free: Sequence[str], how: PhaseSearch) -> CalibratedPhase:
+        build_free = partial(_with_free, build, free)
+        return calibrated_phase(name, model, given.trials, given.noise, build_free, how, progress, held(free))
+
+    one = solved(usual_free, replace(search, resamples=0, starts=0, profiles=0) if search.select else search)
+    if not one.found.solved:
+        return one
+    try:
+        whole = build(given.trials, one.found.p, every)
+        chosen = selected(whole.free, trials_information(whole, one.found))
+    except (ValueError, np.linalg.LinAlgError):
+        return one
+    free = [of.name for of in chosen if of.outcome == "identified"]
+    if search.select and free:
+        one = solved(free, search)
+    return replace(one, selection=chosen)
+
+
+def _with_free(build: BuildFree, free: Sequence[str], trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:
+    return build(trials, start, free)
 
 
 def calibrated_trials(phase: CalibratedPhase, trials: Sequence[StandingTrial]) -> tuple[TrialResult, ...]:

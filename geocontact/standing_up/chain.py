@@ -26,6 +26,7 @@ from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.standing_up.standing_model import GroundLaw, ModelConstants, StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, searched
+from geocontact.standing_up.worn_device import SHIPPED_DEVICE, WornDevice
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -41,10 +42,11 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Subject:
-    """Body mass [kg] and height [m]."""
+    """Body mass [kg] and height [m], and the exoskeleton where one is worn."""
 
     mass: float = 70.0
     height: float = 1.75
+    device: WornDevice = SHIPPED_DEVICE
 
 
 @dataclass(frozen=True)

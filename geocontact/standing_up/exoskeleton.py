@@ -40,6 +40,7 @@ from geocontact.standing_up.chain import (
 )
 from geocontact.standing_up.standing_model import ModelConstants, StandingModel
 from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, ContactParameter, StrapSite, searched
+from geocontact.standing_up.worn_device import PARTS
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -49,8 +50,6 @@ LEGS = THIGH_STRAP.count
 """Straps in parallel at the thigh."""
 DAMPING, TURNING_DAMPING = THIGH_STRAP.damping, THIGH_STRAP.turning_damping
 """Damping of one strap [N s/m], [N m s/rad]."""
-PLATE, LOWER, UPPER, MODULE = 2.0, 3.0, 4.0, 5.0
-"""Masses of foot plates, shank and thigh parts of both sides and the module at the pelvis [kg]."""
 HEIGHT = 0.25
 """Height of the module [m]."""
 EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
@@ -99,17 +98,20 @@ StrapLaw = Callable[[Tree, "SX"], Strap]
 def two_chains(subject: Subject) -> Multibody:
     """The person's chain, with foot plates, and the exoskeleton's on the same feet."""
     alone = leg_chain(subject)
-    bodies = [_heavier(body, PLATE) if body.name == "foot" else body for body in alone.bodies]
-    joints = list(alone.joints)
-    lengths = (SHANK.length * subject.height + SHIFT, THIGH.length * subject.height - SHIFT, HEIGHT)
+    device = subject.device
+    bodies = [_heavier(body, device.masses.foot_plate) if body.name == "foot" else body for body in alone.bodies]
+    joints, lengths = list(alone.joints), part_lengths(subject)
     parent, at = "foot", RigidTransform.identity()
-    names = ("exo_shank", "exo_thigh", "exo_module")
-    for name, joint, mass, length in zip(names, EXO_JOINTS, (LOWER, UPPER, MODULE), lengths, strict=True):
-        inertia = mass * length**2 / 12.0
-        bodies.append(Body(name, mass, np.array([0.0, 0.5 * length, 0.0]), inertia * np.eye(3)))
+    for name, joint, part, length in zip(PARTS, EXO_JOINTS, device.bodies(lengths), lengths, strict=True):
+        bodies.append(Body(name, part.mass, np.array([part.across, part.along, 0.0]), part.inertia * np.eye(3)))
         joints.append(revolute(joint, parent, name, np.array([0.0, 0.0, 1.0]), at))
         parent, at = name, RigidTransform.from_translation([0.0, length, 0.0])
     return Multibody("sit to stand with an exoskeleton", tuple(bodies), tuple(joints), (), alone.gravity)
+
+
+def part_lengths(subject: Subject) -> tuple[float, float, float]:
+    """Lengths of the exoskeleton's shank, thigh and module, set to a person [m]."""
+    return SHANK.length * subject.height + SHIFT, THIGH.length * subject.height - SHIFT, HEIGHT
 
 
 def _heavier(body: Body, more: float) -> Body:
@@ -134,7 +136,7 @@ def with_exoskeleton(
     p, torque = SX.sym("p", len(parameters)), SX.sym("torque", len(tree.names) - 3)
     along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
     chair = SX.sym("chair", COMPONENTS) if seated else None
-    return worn_model(tree, p, along, torque, parameters, strap, chair)
+    return worn_model(tree, p, along, torque, parameters, strap, chair, identified=subject.device.identified)
 
 
 def strapped(subject: Subject, sites: Sequence[StrapSite], *, seated: bool = False) -> StandingModel:
@@ -151,6 +153,8 @@ def worn_model(
     parameters: tuple[ContactParameter, ...],
     law: StrapLaw | None = None,
     chair: SX | None = None,
+    *,
+    identified: bool = False,
 ) -> StandingModel:
     """Both chains on the ground with a strap between them.
 
@@ -164,6 +168,8 @@ def worn_model(
         Of the strap; `thigh_strap` by default.
     chair
         Force and moment of a chair, given over time behind the other inputs.
+    identified
+        Whether the exoskeleton's bodies are those of its own motion.
     """
     feet = len(FOOT_PARAMETERS)
     ground = ground_on_feet(tree, p[:feet, :], GROUND_LAW)
@@ -183,7 +189,7 @@ def worn_model(
         strap.normal_energy,
         0 if chair is None else COMPONENTS,
         strap.elsewhere,
-        ModelConstants(tree.model, GROUND_LAW, strap.sites),
+        ModelConstants(tree.model, GROUND_LAW, strap.sites, identified),
     )
 
 

@@ -25,6 +25,7 @@ from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
+from geocontact.standing_up.worn_device import TURNS
 
 if TYPE_CHECKING:
     from casadi import Function
@@ -33,8 +34,6 @@ FRICTIONS = ("viscous", "Coulomb")
 UNITS = (*(("kg", "kg m", "kg m", "kg m^2") * 3), *(("N m s/rad", "N m") * 3))
 """Units of the parameters, in their order."""
 OF_A_BODY = ("mass", "first moment along x", "first moment along y", "inertia")
-TURNS = float(np.radians(1.0))
-"""Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
 UNTOLD = 1e-9
 """Singular value, of the largest, below which a motion tells nothing of a combination."""
 ALONE = 1e-6
@@ -159,7 +158,7 @@ def identified(
     independent
         Part of the samples that are independent then.
     """
-    matrix = through(regressor(subject, q, u, a)).reshape(-1, len(_names()))
+    matrix = through(regressor(subject, q, u, a)).reshape(-1, len(parameter_names()))
     motors, size = through(motors), np.linalg.norm(matrix, axis=0)
     size = np.where(size > UNTOLD * size.max(), size, np.inf)  # what does not act on the motors is rounding there
     scaled = matrix / size
@@ -173,7 +172,7 @@ def identified(
     residual = float(np.sqrt(np.mean(off**2)))
     alone = np.sum(right[told] ** 2, axis=0) > 1.0 - ALONE
     rank = int(told.sum())
-    return ExoskeletonDynamics(subject, _names(), values / size, deviations, alone, rank, residual)
+    return ExoskeletonDynamics(subject, parameter_names(), values / size, deviations, alone, rank, residual)
 
 
 def identified_from(subject: Subject, motion: DeviceMotion, cutoff: float) -> ExoskeletonDynamics:
@@ -216,7 +215,8 @@ def _sign(u: Float[np.ndarray, ...]) -> Float[np.ndarray, ...]:
     return np.asarray(np.tanh(u / TURNS))
 
 
-def _names() -> tuple[str, ...]:
+def parameter_names() -> tuple[str, ...]:
+    """Names of all dynamic parameters, in their order."""
     bodies = [joint.child for joint in two_chains(Subject()).joints if joint.name in EXO_JOINTS]
     of_bodies = [f"{body} {what}" for body in bodies for what in OF_A_BODY]
     return (*of_bodies, *(f"{joint} {what} friction" for joint in EXO_JOINTS for what in FRICTIONS))

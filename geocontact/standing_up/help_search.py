@@ -13,17 +13,18 @@ from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, HelpDesign, HelpTask, designed
 from geocontact.standing_up.assistance_room import ROOM
 from geocontact.standing_up.assisted_model import (
-    ASSISTED_PARAMETERS,
     SHARE,
+    TIMING,
     AssistedModel,
     HabitSizes,
     assisted_model,
     seen_assisted,
 )
-from geocontact.standing_up.assisted_movement import MEASURES, Movement, Movements, StoppedByHandError
+from geocontact.standing_up.assisted_movement import Movement, Movements, StoppedByHandError
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.numbers_that_ran import FROM_FILE, Ran, model_numbers, parameter_numbers, search_numbers
 from geocontact.standing_up.phase import PhaseProblem, judged
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
 from geocontact.standing_up.trial_result import TrialResult, trial_result
 from geocontact.standing_up.trials import StandingTrial
 
@@ -111,7 +112,7 @@ class HelpSettings:
     vary
         Names of `ROOM`.
     aim
-        One of `MEASURES`: strap or energy.
+        One of the measures: energy, or the strap at the thigh (strap), shank or pelvis.
     knee
         True peak of the person's knee torque at most, as part of that without help.
     nodes
@@ -136,13 +137,15 @@ class HelpSearch:
     Parameters
     ----------
     p
-        What is searched of all `ASSISTED_PARAMETERS`, help as it usually is.
+        What is searched of all parameters of the model, help as it usually is.
     sd
         Standard deviations of those that vary between draws, 0 for the others.
     options
         Of the solver; its intervals do not count.
     stage
         Called with words before each movement.
+    sites
+        Where straps are.
     """
 
     def __init__(
@@ -154,9 +157,10 @@ class HelpSearch:
         settings: HelpSettings,
         options: SolverOptions,
         stage: Callable[[str], None] = lambda words: None,
+        sites: Sequence[StrapSite] = (THIGH_STRAP,),
     ) -> None:
         self.trials, self.p, self.settings, self.stage, self.now, self.stop = trials, p, settings, stage, WORN, False
-        self.model = assisted_model(subject)
+        self.model = assisted_model(subject, sites=sites)
         self.movements = Movements(self.model, subject, trials, options, settings.nodes, self._before)
         rng = np.random.default_rng(settings.seed)
         self.sets = np.array([p + sd * rng.normal(size=len(p)) for _ in range(settings.draws)])
@@ -207,13 +211,13 @@ class HelpSearch:
         reference, last = designs[1] if len(designs) > 2 else designs[0], designs[-1]
         found: list[DrawnGain] = []
         index = HelpTask(self.settings.vary, self.settings.aim, 1.0).index
-        aim = MEASURES.index(self.settings.aim)
+        aim = self.settings.aim
         for k, row in enumerate([] if self.stop else self.sets):
             self.now = f"draw {k + 1}"
             values = []
             for one in (reference, last):
                 p = row.copy()
-                p[SHARE:] = one.movement.found.p[SHARE:]
+                p[[SHARE, TIMING]] = one.movement.found.p[[SHARE, TIMING]]
                 if one is last:
                     p[index] = last.movement.found.p[index]
                 try:
@@ -227,11 +231,11 @@ class HelpSearch:
                 first, second = values
                 found.append(
                     DrawnGain(
-                        float(first.sizes[aim]),
-                        float(second.sizes[aim]),
+                        first.at(aim),
+                        second.at(aim),
                         float(second.sizes[KNEE]),
-                        float(first.largest[aim]),
-                        float(second.largest[aim]),
+                        first.largest_at(aim),
+                        second.largest_at(aim),
                         float(second.largest[KNEE]),
                     )
                 )
@@ -275,18 +279,18 @@ def design_numbers(
     model: AssistedModel, designs: Sequence[CertifiedDesign], trials: Sequence[StandingTrial]
 ) -> list[Ran]:
     """Model, held parameters and the movement's cost once; what may vary and the meshes for each design."""
-    first = designs[0].movement
+    first, every = designs[0].movement, model.standing.parameters
     chosen = {parameter for parameter, _, _ in ROOM.values()}
     rows = model_numbers(model.standing)
     rows.append(Ran("help width", model.width, "-", "invented", "of the help, in parts of the movement"))
-    held = parameter_numbers(ASSISTED_PARAMETERS, first.found.p, note=FROM_FILE)
+    held = parameter_numbers(every, first.found.p, note=FROM_FILE)
     rows += [row for row in held if row.number not in chosen]
     rows += [*_habit(first.sizes)]
     rows.append(Ran("peak order", float(first.asked.order), "-", "invented", "of the norm that smooths peaks"))
     rows.append(Ran("peak places", float(first.asked.places), "-", "invented", "of an interval, for true peaks"))
     for one in designs:
         prefix = f"{one.name} "
-        own = parameter_numbers(ASSISTED_PARAMETERS, one.movement.found.p, note="as chosen, or as given", prefix=prefix)
+        own = parameter_numbers(every, one.movement.found.p, note="as chosen, or as given", prefix=prefix)
         rows += [row for row in own if row.number.removeprefix(prefix) in chosen]
         if one.design is not None:
             note = "true peak of the person's knee torque at most"

@@ -18,11 +18,12 @@ from geocontact.dynamics.collocation.motion import CollocatedMotion
 from geocontact.dynamics.collocation.problem import ControlProblem
 from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
-from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
-from geocontact.standing_up.trials import StandingTrial
+from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, ContactParameter, StrapSite
+from geocontact.standing_up.trials import SHIPPED, StandingTrial
 
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
 OF_BOTH = "of both sides"
+IDENTIFIED = "of both sides, by sit-to-stand device and [masses]"
 FROM_FILE = "as the file of parameters gives it"
 PERTURBED = "of the file of parameters, times a factor"
 NOISE_UNITS = {
@@ -53,7 +54,7 @@ def model_numbers(model: StandingModel) -> list[Ran]:
     if of is None:
         raise ValueError("this model does not say what it was built of")
     worn = bool(of.sites)
-    rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, worn)]
+    rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, worn, of.identified)]
     rows += [*joint_numbers(of.chain), *_ground(of.ground)]
     return rows + [row for site in of.sites for row in _strap(site)]
 
@@ -102,15 +103,23 @@ def size_numbers(sizes: PhaseSizes, prefix: str = "") -> list[Ran]:
         for name, value in vars(sizes.noise).items()
     ]
     rate = Ran(f"{prefix}rate", sizes.rate, "Hz", "invented", "samples a second at which a deviation counts as itself")
+    usual = SHIPPED
     jerk = [
-        Ran(f"{prefix}jerk {name}", size, unit, "invented", "size that counts as 1")
-        for name, size, unit in zip(("foot", "joints"), sizes.jerk, ("m/s^3 and rad/s^3", "rad/s^3"), strict=True)
+        Ran(f"{prefix}jerk {name}", size, unit, *_asked(size, own, "size that counts as 1"))
+        for name, size, unit, own in zip(
+            ("foot", "joints"), sizes.jerk, ("m/s^3 and rad/s^3", "rad/s^3"), usual.jerk, strict=True
+        )
     ]
     weights = [
-        Ran(f"{prefix}weight {name}", value, WEIGHT_UNITS[name], "invented", "of the square")
+        Ran(f"{prefix}weight {name}", value, WEIGHT_UNITS[name], *_asked(value, getattr(usual, name), "of the square"))
         for name, value in sizes.weights.items()
     ]
     return [*noise, rate, *jerk, *weights]
+
+
+def _asked(value: float, shipped: float, note: str) -> tuple[Source, str]:
+    """Source and note of a number that is invented unless the study gives another."""
+    return ("invented", note) if value == shipped else ("derived", f"{note}, as the study has it")
 
 
 def end_numbers(control: ControlProblem, prefix: str = "") -> list[Ran]:
@@ -139,9 +148,10 @@ def search_numbers(motions: Sequence[CollocatedMotion], trials: Sequence[Standin
     return rows
 
 
-def _body(body: Body, worn: bool) -> Iterator[Ran]:
-    source: Source = "invented" if body.name.startswith("exo_") else "derived"
-    note = OF_BOTH if source == "invented" else DE_LEVA
+def _body(body: Body, worn: bool, identified: bool) -> Iterator[Ran]:
+    of_device = body.name.startswith("exo_")
+    source: Source = "invented" if of_device and not identified else "derived"
+    note = (IDENTIFIED if identified else OF_BOTH) if of_device else DE_LEVA
     if worn and body.name == "foot":
         note += "; with foot plates, which are invented"
     name = f"body {body.name}"
@@ -176,6 +186,12 @@ def _ground(law: GroundLaw) -> Iterator[Ran]:
 def _strap(site: StrapSite) -> Iterator[Ran]:
     name = f"strap at the {site.name}"
     yield Ran(f"{name} count", float(site.count), "-", "derived", "in parallel between the chains")
-    yield Ran(f"{name} damping", site.damping, "N s/m", "paper", "of one, across and along")
-    yield Ran(f"{name} turning_damping", site.turning_damping, "N m s/rad", "paper", "of one")
+    dashpots = (
+        ("damping", "N s/m", DAMPING, "of one, across and along"),
+        ("turning_damping", "N m s/rad", TURNING_DAMPING, "of one"),
+    )
+    for what, unit, paper, note in dashpots:
+        value = float(getattr(site, what))
+        source: Source = "paper" if value == paper else "derived"
+        yield Ran(f"{name} {what}", value, unit, source, note if value == paper else f"{note}, as the study has it")
     yield Ran(f"{name} above", site.above, "m", "invented", "the exoskeleton's hinge over the person's")

@@ -34,7 +34,14 @@ from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.first_fit import first_fit
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, bounds, usual
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, problem_scales, standing_trial
+from geocontact.standing_up.trials import (
+    FOOT_JERK,
+    JOINT_JERK,
+    StandingNoise,
+    StandingTrial,
+    problem_scales,
+    standing_trial,
+)
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -105,11 +112,6 @@ def judged(
 
 RATE = 100.0
 """Samples a second at which a deviation counts as itself [Hz]."""
-FOOT_JERK, JOINT_JERK = 20.0, 60.0
-"""Sizes of the jerk [m/s^3, rad/s^3], several times those of a smooth rise.
-
-Smaller ones bend the motion and with it the parameters, larger ones let both follow the noise.
-"""
 
 
 @dataclass(frozen=True)

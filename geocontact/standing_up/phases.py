@@ -23,13 +23,11 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.problem import Bounds, Course
 from geocontact.standing_up.chain import LAW, Subject
 from geocontact.standing_up.exoskeleton import STRAP
-from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, PhaseProblem, smooth_coordinates, standing_phase
+from geocontact.standing_up.phase import PhaseProblem, smooth_coordinates, standing_phase
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import SPRINGS, STRAP_SITES, usual
-from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from geocontact.standing_up.trials import SHIPPED, CostWeights, StandingNoise, StandingTrial
 
-LITTLE_TORQUE = 1e-6
-"""Weight of the torques' squares [1/(N m)^2]; ours."""
 SLACK = -30.0
 """What is searched of a strap's stiffnesses that are as good as 0."""
 TRACKS = ("coordinates", "rates", "force", "centre")
@@ -44,7 +42,7 @@ def phase_a(
     free: Sequence[str] = LAW,
     tracks: Sequence[str] = TRACKS,
     start: Float[np.ndarray, " p"] | None = None,
-    jerk_sizes: tuple[float, float] = (FOOT_JERK, JOINT_JERK),
+    weights: CostWeights = SHIPPED,
 ) -> PhaseProblem:
     """The problem whose solution has the parameters; see `standing_phase`.
 
@@ -66,13 +64,11 @@ def phase_a(
         small=small,
         held=held,
         start=start,
-        jerk_sizes=jerk_sizes,
-        weights={"torques": LITTLE_TORQUE},
+        jerk_sizes=weights.jerk,
+        weights={"torques": weights.torques},
     )
 
 
-LITTLE_ENERGY = 1e-3
-"""Weight of the squared energy [1/J^2]; ours."""
 TRACKS_B = ("coordinates", "rates", "force", "centre", "torque", "strap")
 
 
@@ -86,6 +82,7 @@ def phase_b(
     free: Sequence[str] = STRAP,
     tracks: Sequence[str] = TRACKS_B,
     start: Float[np.ndarray, " s"] | None = None,
+    weights: CostWeights = SHIPPED,
 ) -> PhaseProblem:
     """The problem whose solution has the strap's parameters.
 
@@ -108,7 +105,8 @@ def phase_b(
         small={"energy": model.energy**2},
         held=held,
         start=begin,
-        weights={"energy": LITTLE_ENERGY},
+        jerk_sizes=weights.jerk,
+        weights={"energy": weights.energy},
     )
 
 
@@ -125,6 +123,7 @@ def phase_c(
     p: Float[np.ndarray, " p"],
     *,
     tracks: Sequence[str] = TRACKS_C,
+    weights: CostWeights = SHIPPED,
 ) -> PhaseProblem:
     """The problem whose solution is the predicted motion; `p` is what is searched of all parameters."""
     course = smooth_coordinates(trial)
@@ -138,7 +137,8 @@ def phase_c(
         small={"energy": (model.energy + model.normal_energy) ** 2},
         held=p,
         start=p,
-        weights={"energy": LITTLE_ENERGY},
+        jerk_sizes=weights.jerk,
+        weights={"energy": weights.energy},
         guess=[_between(course, float(np.ptp(trial.time)))],
     )
     seconds = float(np.ptp(trial.time))

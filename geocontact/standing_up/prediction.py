@@ -27,7 +27,7 @@ from geocontact.standing_up.phases import TRACKS_C, phase_c
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
 from geocontact.standing_up.trial_result import TrialResult, trial_result
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, seen_in
+from geocontact.standing_up.trials import SHIPPED, CostWeights, StandingNoise, StandingTrial, seen_in
 
 ALL = "all given"
 GIVEN: Mapping[str, tuple[str, ...]] = {
@@ -90,6 +90,7 @@ def predicted_trial(
     *,
     nodes: float = 45.0,
     tracks: Sequence[str] = TRACKS_C,
+    weights: CostWeights = SHIPPED,
     progress: Progress | None = None,
 ) -> PredictedTrial:
     """The motion from a trial's first and last posture and from the channels of `tracks`; certified where it is solved.
@@ -107,7 +108,7 @@ def predicted_trial(
     nodes
         Intervals a second where the search starts; those that leave too much of the balance are halved.
     """
-    phase = phase_c(model, subject, trial, noise, p, tracks=tracks)
+    phase = phase_c(model, subject, trial, noise, p, tracks=tracks, weights=weights)
     mesh = np.linspace(0.0, 1.0, round(nodes * float(trial.time[-1])) + 1)
     coarse = solve(phase.control, options, meshes=(mesh,), progress=progress)
     found = refined(phase.control, coarse, options, model.turning, progress=progress)

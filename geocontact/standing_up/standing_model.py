@@ -46,11 +46,14 @@ class ModelConstants:
     ----------
     sites
         Where straps are; none without an exoskeleton.
+    identified
+        Whether the exoskeleton's bodies are those of its own motion, and not the shipped ones.
     """
 
     chain: Multibody
     ground: GroundLaw
     sites: tuple[StrapSite, ...] = ()
+    identified: bool = False
 
 
 @dataclass(frozen=True)

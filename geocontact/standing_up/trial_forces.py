@@ -44,6 +44,25 @@ def seat_off(time: Times, force: Times) -> float:
     return float(time[seated[-1] + 1])
 
 
+def seat_contact(time: Times, force: Times) -> float:
+    """When the chair's force rises to `SEATED` and stays there [s]; InputError where somebody sits from the start, or
+    never.
+
+    Parameters
+    ----------
+    force
+        Normal force on the chair, without a sign [N].
+    """
+    free = np.flatnonzero(force < SEATED)
+    if not len(free):
+        what = f"seat contact not found: its force is at least {force.min():.3g} N all along"
+        raise InputError("", "", what, "check that the plate was set to zero, or give end")
+    if free[-1] == len(force) - 1:
+        what = f"seat contact not found: its force is {force[-1]:.3g} N at the end"
+        raise InputError("", "", what, "check that this is the chair's plate, or give end")
+    return float(time[free[-1] + 1])
+
+
 def chair_load(wrench: Wrench, time: Times) -> Table:
     """Force forwards and up [N] and moment about the ground's origin [N m] on the person, low-passed, (t, 3).
 

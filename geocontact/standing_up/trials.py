@@ -98,6 +98,43 @@ class StandingNoise:
     strap: float = 1.0
 
 
+FOOT_JERK, JOINT_JERK = 20.0, 60.0
+"""Sizes of the jerk [m/s^3, rad/s^3], several times those of a smooth rise.
+
+Smaller ones bend the motion and with it the parameters, larger ones let both follow the noise.
+"""
+LITTLE_TORQUE, LITTLE_ENERGY = 1e-6, 1e-3
+"""Weights of the torques' squares [1/(N m)^2] and of the squared energy [1/J^2]; ours, the study's are not printed."""
+
+
+@dataclass(frozen=True)
+class CostWeights:
+    """What of the cost no noise weighs.
+
+    Parameters
+    ----------
+    torques
+        Of the squared torques, in phase A [1/(N m)^2].
+    energy
+        Of the squared energy of the straps, in phases B and C [1/J^2].
+    foot_jerk, joint_jerk
+        Sizes of the jerk that count as 1 [m/s^3, rad/s^3].
+    """
+
+    torques: float = LITTLE_TORQUE
+    energy: float = LITTLE_ENERGY
+    foot_jerk: float = FOOT_JERK
+    joint_jerk: float = JOINT_JERK
+
+    @property
+    def jerk(self) -> tuple[float, float]:
+        """Sizes of the jerk of foot and joints."""
+        return self.foot_jerk, self.joint_jerk
+
+
+SHIPPED = CostWeights()
+
+
 @dataclass(frozen=True, eq=False)
 class StandingUpTrials:
     """Trials of one person.
@@ -110,6 +147,8 @@ class StandingUpTrials:
         Names of the feet's parameters, and channels.
     sites
         Where straps are, if an exoskeleton was worn.
+    weights
+        Of the cost, besides the noise.
     """
 
     subject: Subject
@@ -119,6 +158,7 @@ class StandingUpTrials:
     free: tuple[str, ...]
     tracks: tuple[str, ...]
     sites: tuple[StrapSite, ...] = (THIGH_STRAP,)
+    weights: CostWeights = SHIPPED
 
     @property
     def seated(self) -> bool:
@@ -160,12 +200,14 @@ def standing_up(
     intervals: int = 50,
     chair: Course | None = None,
     down: bool = False,
+    squat: bool = False,
 ) -> tuple[ControlProblem, CollocationResult]:
     """The motion with planted parameters closest to `rising`, with little jerk and torque; an exoskeleton along.
 
     `assistance` is what the exoskeleton's torques are to be of the person's. Coordinates after both chains', such as a
     toe joint's, have no torque and are to stay at 0. `chair` is the force of one over time, for a model that has it.
-    `down` has the person sit down instead, the same course from its end.
+    `down` has the person sit down instead, the same course from its end; `squat` goes down and up again, in half
+    of the time each.
     """
     from casadi import SX, sumsqr
 
@@ -188,7 +230,8 @@ def standing_up(
     alone = rising(seconds, seated, planted)
 
     def course(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t n"]:
-        q = alone(seconds - time if down else time)
+        # in a squat from the end to the beginning of the course and back, twice as fast
+        q = alone(np.abs(seconds - 2.0 * time) if squat else seconds - time if down else time)
         return np.hstack([q, q[:, 3 : 3 + torques - 3], np.zeros((len(q), n - 3 - torques))])
 
     def given(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t w"]:

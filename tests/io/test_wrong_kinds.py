@@ -176,8 +176,15 @@ thigh = "t02_thigh"
         """mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
 height = { value = 1.75, unit = "m" }
 exoskeleton = true
+device = "a.csv"
 free = ["a"]
 tracks = ["b"]
+[masses]
+shank = { value = 3, unit = "kg" }
+[straps]
+damping = 10.0
+[weights]
+torques = 1e-6
 [noise]
 angle = { value = 0.3, unit = "deg" }
 [[trials]]
@@ -186,6 +193,9 @@ coordinates = "a.csv"
 rates = "a.csv"
 plates = "a.csv"
 torques = "a.csv"
+motors = "a.csv"
+mode = "passive"
+task = "sitting down"
 strap = ["a.csv", "a.csv"]
 strap_shank = "a.csv"
 strap_pelvis = "a.csv"
@@ -194,8 +204,13 @@ chair = 2
 sitting = true
 start = { value = 0.5, unit = "s" }
 end = 2.5
+[[trials]]
+name = "T2"
+coordinates = "a.csv"
+movement = 2
 """,
         {
+            r"(straps damping|weights torques)": ("number", "table"),
             r"trials \d+ (name|feet|chair)": ("number", "text"),
             r"trials \d+ strap\w*": ("list", "text"),
             r"trials \d+ (start|end)": ("number", "table"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, NAMES, STRAP, HelpTask, designed
 from geocontact.standing_up.assisted_model import SHARE, assisted_model
-from geocontact.standing_up.assisted_movement import Movement, Movements
+from geocontact.standing_up.assisted_movement import ORDER, PLACES, Asked, Movement, Movements
 from geocontact.standing_up.chain import EVERY_PLANTED
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 from tests.cli.calls import MESHES
@@ -44,7 +43,7 @@ def test_every_set_of_parameters_has_its_own_limit() -> None:
 
     class Line(Movement):
         def __init__(self, sizes: np.ndarray, slopes: np.ndarray, knee: np.ndarray, by: np.ndarray) -> None:
-            of = SimpleNamespace(sizes=sizes, slopes=slopes, knee=knee, knee_slopes=by)
+            of = Asked(sizes, slopes, sizes, knee, by, ORDER, PLACES)
             object.__setattr__(self, "asked", of)
 
     class Lines(Movements):

@@ -14,10 +14,10 @@ from geocontact.standing_up.assumed_shares import JERK_KNOWN, AssumedShares, ass
 from geocontact.standing_up.chain import EVERY_PLANTED, FOOT_PARAMETERS, Subject
 from geocontact.standing_up.contact_numbers import ContactNumber, ContactNumbers, contact_numbers, held_covariance
 from geocontact.standing_up.exoskeleton import STRAP, with_exoskeleton
-from geocontact.standing_up.phase import FOOT_JERK, JOINT_JERK, PhaseProblem, standing_phase
-from geocontact.standing_up.phases import LITTLE_ENERGY, TRACKS_B, phase_b
+from geocontact.standing_up.phase import PhaseProblem, standing_phase
+from geocontact.standing_up.phases import TRACKS_B, phase_b
 from geocontact.standing_up.strap_sites import searched, usual
-from geocontact.standing_up.trials import StandingNoise, with_noise
+from geocontact.standing_up.trials import FOOT_JERK, JOINT_JERK, LITTLE_ENERGY, StandingNoise, with_noise
 from tests.cli.calls import MESHES
 
 FEET = len(FOOT_PARAMETERS)

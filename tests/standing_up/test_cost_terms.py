@@ -215,3 +215,31 @@ def test_the_problem_adds_the_terms_over_time_and_trials_and_the_belief_once() -
                 at = Place(x[:6], x[6:12], u[:6], u[6:])
                 total += long * (end - begin) * weight * costs(s, dict(one.terms), w, at, p)[1]
     assert float(program.value(z, [])[0]) == pytest.approx(total, rel=1e-9)
+
+
+def test_the_energy_of_straps_counts_by_its_weight() -> None:
+    """In phases B and C: twice the weight is twice the term, and the sizes of the jerk are the study's."""
+    from casadi import Function
+
+    from geocontact.standing_up.chain import EVERY_PLANTED, Subject
+    from geocontact.standing_up.exoskeleton import STRAP_PLANTED, with_exoskeleton
+    from geocontact.standing_up.phases import phase_b, phase_c
+    from geocontact.standing_up.trials import SHIPPED, CostWeights, StandingNoise, StandingTrial
+
+    model, time = with_exoskeleton(Subject()), np.linspace(0.0, 1.0, 41)
+    flat = np.tile(np.r_[0.05, 0.082, np.zeros(7)], (41, 1))
+    force, none = np.tile([20.0, 700.0], (41, 1)), np.zeros(41)
+    trial = StandingTrial(time, flat, 0.0 * flat, force, none + 0.06, torque=np.zeros((41, 6)), strap=none)
+    p, x = np.r_[EVERY_PLANTED, STRAP_PLANTED], np.r_[flat[0] + 0.02 * np.arange(9), np.zeros(18)]
+    values = {}
+    for name, weights in (("shipped", SHIPPED), ("own", CostWeights(energy=2e-3, foot_jerk=10.0, joint_jerk=30.0))):
+        for phase in (
+            phase_b(model, Subject(), [trial], StandingNoise(), EVERY_PLANTED, weights=weights),
+            phase_c(model, Subject(), trial, StandingNoise(), p, weights=weights),
+        ):
+            s, terms = phase.control.system, phase.terms
+            at = Function("at", [s.x, s.u, s.p], [terms["energy"], terms["jerk"]])
+            values.setdefault(name, []).append([float(each) for each in at(x, np.ones(15), p)])
+    energies, jerks = (np.array([values[name] for name in ("shipped", "own")])[:, :, k] for k in (0, 1))
+    assert (energies[0] > 0.0).all() and np.allclose(energies[1], 2.0 * energies[0])
+    assert np.allclose(jerks, [[3 / 20.0**2 + 6 / 60.0**2] * 2, [3 / 10.0**2 + 6 / 30.0**2] * 2])

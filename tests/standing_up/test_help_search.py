@@ -10,7 +10,7 @@ import pytest
 
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, NAMES, STRAP, HelpDesign
-from geocontact.standing_up.assisted_movement import Movement, Movements, StoppedByHandError
+from geocontact.standing_up.assisted_movement import Asked, Movement, Movements, StoppedByHandError
 from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED
 from geocontact.standing_up.help_search import (
@@ -55,7 +55,7 @@ class Lines(Movements):
         of[STRAP, SHARE], of[KNEE, SHARE], by[:, SHARE] = 50.0, -100.0, -100.0
         knee = np.array([100.0 * (1.0 - p[SHARE])])
         sizes = np.array([10.0 + 50.0 * p[SHARE] + p[0] - P[0], knee[0], 1.0, 1.0])[np.argsort([STRAP, KNEE, 2, 3])]
-        asked = SimpleNamespace(sizes=sizes, largest=1.1 * sizes, slopes=of, knee=1.1 * knee, knee_slopes=1.1 * by)
+        asked = Asked(sizes, of, 1.1 * sizes, 1.1 * knee, 1.1 * by, 24, 9)
         return Movement(None, SimpleNamespace(p=p), asked, None)  # type: ignore[arg-type]
 
 

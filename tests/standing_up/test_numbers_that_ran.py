@@ -23,10 +23,11 @@ from geocontact.standing_up.numbers_that_ran import (
 from geocontact.standing_up.phases import phase_a
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import STRAP_SITES
-from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial
+from geocontact.standing_up.worn_device import DeviceMasses, WornDevice
 from tests.standing_up.from_table import Chains, belief
 
-SUBJECT = Subject(81.0, 1.69)
+SUBJECT = Subject(81.0, 1.69, WornDevice(DeviceMasses(foot_plate=1.3, thigh=4.7)))
 FOOT = [5e6, -0.04, 0.13, 0.09, 0.03, 1.2, 1.1]
 STRAPS = [4e3, 2.2e3, 31.0, 0.21, 3.1e3, 1.7e3, 19.0, 0.26, 5.3e3, 2.9e3, 23.0, 0.08]
 
@@ -39,8 +40,6 @@ def unusual(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exoskeleton, "GROUND_LAW", law)
     monkeypatch.setattr(chain, "GRAVITY", np.array([0.3, -9.5, 0.0]))
     monkeypatch.setattr(chain, "SHANK", replace(chain.SHANK, gyration=0.3, centre=0.6))
-    monkeypatch.setattr(exoskeleton, "UPPER", 4.7)
-    monkeypatch.setattr(exoskeleton, "PLATE", 1.3)
     for module in (exoskeleton, strap_sites):
         monkeypatch.setattr(module, "SHIFT", 0.017)
 
@@ -90,7 +89,13 @@ def test_sizes_and_beliefs_are_those_of_the_cost() -> None:
     trial = StandingTrial(time, flat, 0.0 * flat, np.tile([20.0, 700.0], (41, 1)), np.full(41, 0.06))
     noise = StandingNoise(force=7.0, centre=2.3e-3)
     phase = phase_a(
-        model, SUBJECT, [trial], noise, free=("toe", "stiffness"), start=values(model), jerk_sizes=(7.0, 8.0)
+        model,
+        SUBJECT,
+        [trial],
+        noise,
+        free=("toe", "stiffness"),
+        start=values(model),
+        weights=CostWeights(foot_jerk=7.0, joint_jerk=8.0),
     )
     assert phase.sizes is not None
     p, s = values(model), phase.control.system

@@ -80,13 +80,22 @@ def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
     write_moco_trajectory(file, trial.points.time, states, controls, paths("accel", trial.acceleration), solved)
 
 
-def write_motion(folder: Path, subject: Subject, trial: TrialResult, values: Mapping[str, float], solved: bool) -> None:
+def write_motion(
+    folder: Path,
+    subject: Subject,
+    trial: TrialResult,
+    values: Mapping[str, float],
+    solved: bool,
+    sites: Sequence[StrapSite] = (),
+) -> None:
     """solution_NAME.sto, coordinates_NAME.mot, loads_NAME.mot and .xml, forces_NAME.pvd; the model's, not recorded.
 
     Parameters
     ----------
     values
         Of the parameters, in SI.
+    sites
+        Where straps are; those of the values, damped as in the study of the paper, by default.
     """
     name, q, time = trial.recorded.name, trial.model.q, trial.recorded.time
     write_solution(folder / f"solution_{name}.sto", trial, solved)
@@ -96,7 +105,7 @@ def write_motion(folder: Path, subject: Subject, trial: TrialResult, values: Map
     degrees = np.where(turning, np.degrees(q), q)
     write_storage(folder / f"coordinates_{name}.mot", time, names, degrees, title=title, degrees=True)
     worn = q.shape[1] > len(COORDINATES)
-    sites = sites_of(values) if worn else ()
+    sites = (sites or sites_of(values)) if worn else ()
     straps = [(site, strap_force(subject, q, trial.model.u, values, site)) for site in sites]
     _write_loads(folder, trial, straps)
     _write_lines(folder, subject, trial, straps)
@@ -158,13 +167,17 @@ def _centre(trial: TrialResult) -> Vectors:
     return np.column_stack([trial.model.centre, np.zeros((len(trial.recorded.time), 2))])
 
 
-def write_standing_model(file: Path, subject: Subject, values: Mapping[str, float], *, worn: bool) -> None:
+def write_standing_model(
+    file: Path, subject: Subject, values: Mapping[str, float], *, worn: bool, sites: Sequence[StrapSite] = ()
+) -> None:
     """Spheres under the foot, straps as bushings where an exoskeleton is worn, torques of all joints.
 
     Parameters
     ----------
     values
         Of the parameters of feet and straps, in SI.
+    sites
+        Where straps are; those of the values, damped as in the study of the paper, by default.
     """
     chain = two_chains(subject) if worn else leg_chain(subject)
     height, factor = values["radius"] - values["bottom"], values["friction"]
@@ -174,7 +187,7 @@ def write_standing_model(file: Path, subject: Subject, values: Mapping[str, floa
     ]
     forces = [smooth_sphere_force(each.name, values["stiffness"], values["dissipation"], friction) for each in balls]
     if worn:
-        forces += [_bushing(site, values) for site in sites_of(values)]
+        forces += [_bushing(site, values) for site in sites or sites_of(values)]
     forces += [torque_along(each.name) for each in chain.coordinates[3:]]
     write_osim(file, replace(chain, name="sit_to_stand"), balls=balls, forces=forces, note=MODEL_NOTE)
 
@@ -196,6 +209,7 @@ def write_strap_case(
     trials: Sequence[StandingTrial],
     values: Mapping[str, float],
     held_out: int = 1,
+    damping: float = DAMPING,
 ) -> None:
     """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
 
@@ -205,6 +219,8 @@ def write_strap_case(
     ----------
     values
         Of the strap's parameters, in SI.
+    damping
+        Of its dashpot [N s/m].
     """
     trials = [trial for trial in trials if trial.strap is not None and np.isfinite(trial.strap).all()]
     if len(trials) <= held_out:
@@ -222,7 +238,7 @@ def write_strap_case(
         calibration=json.dumps(names[:-held_out]),
         evaluation=json.dumps(names[-held_out:]),
         sources=sources,
-        damping=DAMPING,
+        damping=damping,
         stiffness=stiffness,
         least=stiffness / STIFFNESS_ROOM,
         most=stiffness * STIFFNESS_ROOM,

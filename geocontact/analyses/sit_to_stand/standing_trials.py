@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
+from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, worn_device
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -24,12 +25,13 @@ from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
+from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
+from geocontact.standing_up.movements import LEAST_RANGE, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import strap_sites
-from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
-from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, with_chairs
+from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
+from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
 
 FEWEST = 20
@@ -44,13 +46,14 @@ CELL = "r0c0"
 """First cell in a mat's own recording."""
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
+Used = Bool[np.ndarray, " t"]
 
 
 def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: str | None = None) -> StandingUpTrials:
     """Everything in the study; `c3d_unit` is that of .c3d files that have none, `axes` turns plates into x, y up, z."""
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
-    subject = Subject(study.mass, study.height)
+    subject = Subject(study.mass, study.height, worn_device(study, file))
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
@@ -62,13 +65,16 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
+    sites = tuple(replace(site, **study.straps) for site in sites)
+    noise = StandingNoise(**study.noise)
     names = tuple(site.name for site in sites[1:])
     _warn_of_copies(study.trials)
     turn = turn_of(axes)
     if axes is not None and all(each.plates is None for each in study.trials):
         raise InputError("", "`axes`", "has no effect without plates", "leave it out")
-    trials = with_chairs([channels_of(each, chain, tracks, file, names, c3d_unit, turn) for each in study.trials])
-    return StandingUpTrials(subject, StandingNoise(**study.noise), trials, study.exoskeleton, free, tracks, sites)
+    read = [channels_of(each, chain, subject, noise, tracks, file, names, c3d_unit, turn) for each in study.trials]
+    weights, worn = CostWeights(**study.weights), study.exoskeleton
+    return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights)
 
 
 def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
@@ -97,6 +103,8 @@ def _known(
 def channels_of(
     files: StandingTrialFiles,
     chain: Multibody,
+    subject: Subject,
+    noise: StandingNoise,
     tracks: tuple[str, ...],
     study: Path,
     sites: tuple[str, ...] = (),
@@ -116,24 +124,15 @@ def channels_of(
     """
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
-    time, q = _motion(files.coordinates, chain, f"{files.name} coordinates")
+    time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
     whole = MovedModel(chain, time, q, str(files.coordinates))
-    off, feet, chair = time >= time[0], None, None
-    if files.plates is not None:
-        plates = turned_plates(read_force_plates(files.plates, c3d_unit), turn, files.plates)
-        add_input(f"{files.name} plates", files.plates, plates=len(plates))
-        feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
-        _require_one_clock(files.plates, feet, time)
-        if files.chair is not None:
-            chair = plate_named(plates, files.chair, files.plates, f"{place} chair")
-            with _named(files.plates, chair):
-                left = time >= seat_off(chair.time, np.abs(chair.wrench.force @ chair.normal))
-            off = off if files.sitting else left
-    used = off & _within(files, time)
+    feet, chair = _plates(files, place, time, c3d_unit, turn)
+    used = _used(files, place, time, hip_height(subject, q), chair)
     if used.sum() < FEWEST:
         what = f"{int(used.sum())} samples are left of it"
         raise InputError(study, place, what, f"{FEWEST} are needed: check start, end and chair")
     time, q = time[used], q[used]
+    _doubt_task(files, hip_height(subject, q))
     u = np.zeros_like(q) if files.rates is None else _rates(files.rates, chain, files.name, time)
     if files.rates is not None:
         rates = np.full_like(whole.values, np.nan)
@@ -144,9 +143,10 @@ def channels_of(
         with _named(files.plates, feet):
             force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
     torque, strap, elsewhere = None, None, {}
-    if "torque" in tracks and files.torques is not None:
-        names = [c.name for c in chain.coordinates[3:]]
-        torque = _columns(files.torques, names, f"{files.name} torques", time)
+    if "torque" in tracks:
+        torque = joint_torques(
+            files, subject.device, whole.time, whole.values[:, len(COORDINATES) :], used, noise.torque
+        )
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         roles = {site: f"{files.name} strap_{site}" for site in sites}
@@ -156,7 +156,7 @@ def channels_of(
         with _named(files.plates, chair):
             sat_on = chair_load(_wrench(chair, time), time)
     plates_of = tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None)
-    upright = feet is not None and np.abs(q[-1, JOINTS]).max() < UPRIGHT
+    upright = [k for k in (-1, 0) if feet is not None and np.abs(q[k, JOINTS]).max() < UPRIGHT]
     recorded = [("strap", "N", strap)] if strap is not None else []
     if torque is not None:
         recorded += [(f"torque {k + 1}", "N m", own) for k, own in enumerate(torque.T)]
@@ -165,7 +165,7 @@ def channels_of(
             plates=plates_of,
             mass=chain.mass,
             mass_option=f"mass in {study}",
-            stands_at=float(time[-1]) if upright else None,
+            stands_at=float(time[upright[0]]) if upright else None,
             turn=turn,
             moved=whole,
             channels=tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in recorded),
@@ -217,7 +217,7 @@ def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
         )
         remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
-    return _columns(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
+    return columns_at(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
 
 
 def _within(files: StandingTrialFiles, time: Times) -> Bool[np.ndarray, " t"]:
@@ -226,7 +226,73 @@ def _within(files: StandingTrialFiles, time: Times) -> Bool[np.ndarray, " t"]:
     return np.asarray((time >= low) & (time <= high))
 
 
-def _motion(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
+def _plates(
+    files: StandingTrialFiles, place: str, time: Times, c3d_unit: str | None, turn: Rotation | None
+) -> tuple[ForcePlate | None, ForcePlate | None]:
+    """Those of feet and chair; None where there is none."""
+    if files.plates is None:
+        return None, None
+    plates = turned_plates(read_force_plates(files.plates, c3d_unit), turn, files.plates)
+    add_input(f"{files.name} plates", files.plates, plates=len(plates))
+    feet = plate_named(plates, files.feet, files.plates, f"{place} feet")
+    require_one_clock(files.plates, feet, time)
+    if files.chair is None:
+        return feet, None
+    return feet, plate_named(plates, files.chair, files.plates, f"{place} chair")
+
+
+def _used(files: StandingTrialFiles, place: str, time: Times, height: Times, chair: ForcePlate | None) -> Used:
+    """Samples of the trial: between its times, within its movement, and off the chair unless sitting belongs to it."""
+    used = _within(files, time)
+    loaded = np.zeros(0) if chair is None else np.abs(chair.wrench.force @ chair.normal)
+    if files.movement is not None:
+        seen = None if chair is None else np.interp(time, chair.time, loaded)
+        used &= _movement(files, place, time, height, seen)
+    if chair is None or files.plates is None or files.sitting or not used.any():
+        return used
+    first, last = time[used][[0, -1]]
+    own, cut = (chair.time >= first) & (chair.time <= last), (files.start, files.end, files.movement) != (None,) * 3
+    if own.any() and not (cut and loaded[own].max() < SEATED):
+        with _named(files.plates, chair):
+            used &= _off_the_seat(files.task, time, chair.time[own], loaded[own])
+    return used
+
+
+def _movement(files: StandingTrialFiles, place: str, time: Times, height: Times, chair: Times | None) -> Used:
+    """When the movement of the recording is that the trial names."""
+    try:
+        every = movements_of(time, height, chair)
+    except ValueError as error:
+        raise InputError(files.coordinates, "", str(error), "give a longer recording, or start and end") from error
+    kinds = {files.task, {"standing up": "rising", "sitting down": "going down"}.get(files.task)}
+    found = [one for one in every if one.kind in kinds]
+    wanted = files.movement or 1
+    if wanted > len(found):
+        what = f"{files.task} is there {len(found)} times in {files.coordinates.name}, among {len(every)} movements"
+        raise InputError(place, "movement", what, "run geocontact sit-to-stand movements to see them")
+    one = found[wanted - 1]
+    if not one.agrees:
+        reserve(f"{files.name}: the chair carries {one.before:.0f} N before and {one.after:.0f} N after {one.kind}")
+    return np.asarray((time >= one.start) & (time <= one.end))
+
+
+def _off_the_seat(task: str, time: Times, own: Times, force: Times) -> Used:
+    """Times from seat-off on, or up to seat contact."""
+    if task == "sitting down":
+        return np.asarray(time < seat_contact(own, force))
+    return np.asarray(time >= seat_off(own, force))
+
+
+def _doubt_task(files: StandingTrialFiles, height: Times) -> None:
+    """A task that the coordinates contradict: by which the hip rises, and how far it goes down in between."""
+    rise, dip = float(height[-1] - height[0]), float(min(height[0], height[-1]) - height.min())
+    way = "squat" if dip > abs(rise) else "standing up" if rise > 0.0 else "sitting down"
+    if way != files.task and max(dip, abs(rise)) > LEAST_RANGE:
+        reserve(f'{files.name}: the hip moves as in {way}, and its task is {files.task}: write task = "{way}"')
+
+
+def motion_of_file(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
+    """Times and coordinates of a chain; InputError where columns lack, or where times are few or not even."""
     table = read_table(file)
     add_input(role, file, frames=len(table.time))
     known = columns_of(table, chain.joints)
@@ -243,26 +309,14 @@ def _motion(file: Path, chain: Multibody, role: str) -> tuple[Times, Table]:
 
 
 def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:
-    own, rates = _motion(file, chain, f"{name} rates")
+    own, rates = motion_of_file(file, chain, f"{name} rates")
     if own[0] > time[0] + 1e-9 or own[-1] < time[-1] - 1e-9:
         what = f"runs from {own[0]:g} to {own[-1]:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, "", what, "put both on one clock")
     return np.column_stack([np.interp(time, own, column) for column in rates.T])
 
 
-def _columns(file: Path, names: Sequence[str], role: str, time: Times) -> Table:
-    """Columns as they are, in SI, at the times of the trial."""
-    table = read_table(file)
-    add_input(role, file, frames=len(table.time))
-    values = np.column_stack([table.needed(name) for name in names])
-    begin, end = table.time[[0, -1]]
-    if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:
-        what = f"runs from {begin:g} to {end:g} s, the trial from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(file, "", what, "put both on one clock")
-    return np.column_stack([np.interp(time, table.time, column) for column in values.T])
-
-
-def _require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:
+def require_one_clock(file: Path, plate: ForcePlate, time: Times) -> None:
     """A plate that was not recording while the markers were is on another clock."""
     begin, end = plate.time[[0, -1]]
     step = float(np.ptp(time)) / (len(time) - 1)

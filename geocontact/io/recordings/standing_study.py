@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
@@ -55,6 +55,24 @@ NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre":
 """SI units of the standard deviations."""
 Deviation = {name: Annotated[float, WithUnit(unit), Field(gt=0.0)] for name, unit in NOISE.items()}
 Time = Annotated[float, WithUnit("s", bare=True)]
+Weighed = {
+    name: Annotated[float, WithUnit(unit, bare=True), Field(gt=0.0)]
+    for name, unit in {
+        "torques": "1/(N m)^2",
+        "energy": "1/J^2",
+        "foot_jerk": "m/s^3",
+        "joint_jerk": "rad/s^3",
+    }.items()
+}
+"""What weighs the cost besides the noise, by name."""
+Mass = Annotated[float, WithUnit("kg"), Field(gt=0.0)]
+Masses = dict.fromkeys(("foot_plate", "shank", "thigh", "module"), Mass)
+Damped = {
+    name: Annotated[float, WithUnit(unit, bare=True), Field(ge=0.0)]
+    for name, unit in {"damping": "N s/m", "turning_damping": "N m s/rad"}.items()
+}
+Task = Literal["standing up", "sitting down", "squat"]
+Mode = Literal["active", "passive", "off"]
 
 
 class StandingTrialFiles(Document):
@@ -69,7 +87,15 @@ class StandingTrialFiles(Document):
     plates
         Force plates.
     torques
-        Torques of all joints of both legs: .sto, [N m].
+        Torques of all joints of both legs: .sto, [N m]; of the exoskeleton also by `motors` or `mode`.
+    motors
+        Torques of the exoskeleton's motors: .sto, [N m], whose friction `device` has.
+    mode
+        Active: it helps. Passive, its motors giving nothing, or off: its hinges have friction alone.
+    task
+        Sitting down ends at seat contact, a squat has no chair.
+    movement
+        Which of the recording's movements of this task is used, from 1.
     strap
         Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan.
     strap_shank, strap_pelvis
@@ -77,7 +103,7 @@ class StandingTrialFiles(Document):
     feet, chair
         Plates by name or number.
     sitting
-        Whether the trial begins before seat-off, with the chair's force as a load.
+        Whether the trial includes what is before seat-off or after seat contact, with the chair's force as a load.
     start, end
         Times between which the trial is used.
     """
@@ -87,6 +113,10 @@ class StandingTrialFiles(Document):
     rates: File | None = None
     plates: File | None = None
     torques: File | None = None
+    motors: File | None = None
+    mode: Mode | None = None
+    task: Task = "standing up"
+    movement: Annotated[int, Field(ge=1, le=1000)] | None = None
     strap: Files = ()
     strap_shank: Files = ()
     strap_pelvis: Files = ()
@@ -106,6 +136,12 @@ class StandingTrialFiles(Document):
     def _require_chair(self) -> StandingTrialFiles:
         if self.sitting and (self.chair is None or self.plates is None):
             raise refusal("sitting needs the force of a chair", "name plates, with a chair among them")
+        if self.task == "squat" and self.chair is not None:
+            raise refusal("a squat has no chair", "leave chair out, or name another task")
+        if self.mode == "off" and self.motors is not None:
+            raise refusal("motors that are off give no torque", 'leave motors out, or write mode = "passive"')
+        if self.movement is not None and (self.start is not None or self.end is not None):
+            raise refusal("movement and start or end choose the time twice", "keep one of them")
         return self
 
 
@@ -120,6 +156,15 @@ class StandingStudy(Document):
         Body height.
     exoskeleton
         Whether it was worn.
+    device
+        numbers.csv of `sit-to-stand device`, in place of the shipped exoskeleton.
+    masses
+        Masses of the exoskeleton's bodies, both sides.
+    straps
+        Dashpots of one strap; the study's 10 N s/m and 0.1 N m s/rad by default.
+    weights
+        Squared torques in phase A (1e-6 by default), squared energy of the straps in B and C (1e-3), sizes of the jerk
+        of foot (20) and joints (60): ours, the study prints none.
     noise
         Standard deviation of one sample; `rate` is that of turns and, in m/s, of the foot's place.
     free
@@ -133,10 +178,23 @@ class StandingStudy(Document):
     mass: Annotated[float, WithUnit(BODY)]
     height: Annotated[float, WithUnit(TALL)]
     exoskeleton: bool = False
+    device: File | None = None
+    masses: Annotated[Mapping[str, float], Some(Masses)] = {}
+    straps: Annotated[Mapping[str, float], Some(Damped)] = {}
+    weights: Annotated[Mapping[str, float], Some(Weighed)] = {}
     noise: Annotated[Mapping[str, float], Some(Deviation)] = {}
     free: Names | None = None
     tracks: Names | None = None
     trials: Annotated[tuple[StandingTrialFiles, ...], Listed("T{number}", same_place)]
+
+    @model_validator(mode="after")
+    def _require_worn(self) -> StandingStudy:
+        worn = {"device": self.device, "[masses]": self.masses, "[straps]": self.straps}
+        worn |= {f"{key} of {each.name}": getattr(each, key) for each in self.trials for key in ("mode", "motors")}
+        odd = next((name for name, value in worn.items() if value), None)
+        if odd is not None and not self.exoskeleton:
+            raise refusal(f"{odd} has no effect without an exoskeleton", "write exoskeleton = true, or leave it out")
+        return self
 
 
 def read_standing_study(path: Path) -> StandingStudy:

@@ -33,15 +33,18 @@ class StandingCalibrateOptions(StandingSearchOptions):
         Seed of starts and resamples.
     level
         Probability of the intervals.
+    select
+        Free those parameters that these trials identify together, instead of the usual ones or `free` of the study.
     profiles
         Points to either side of each parameter, up to three standard deviations away, where all else is refitted.
     """
 
     writes: ClassVar[str] = """
     Writes parameters.csv (value, interval, and whether the trials identify it), errors.csv (error of each channel),
-    rmsd_by_trial.csv (in the form of the study's Table II), certificate.csv (of the motion), correlation.csv,
-    numbers.csv and mesh.csv (all that ran), model.osim, a table over time and a trajectory for OpenSim's Moco for each
-    trial, figures (forces, kinematics, moments, contact laws), report.html and run.json into OUT.
+    selection.csv (which parameters the trials identify together), rmsd_by_trial.csv (in the form of the study's Table
+    II), certificate.csv (of the motion), correlation.csv, numbers.csv and mesh.csv (all that ran), model.osim, a table
+    over time and a trajectory for OpenSim's Moco for each trial, figures (forces, kinematics, moments, contact laws),
+    report.html and run.json into OUT.
 
     Ctrl-C stops the optimisation and saves its last iterate.
     """
@@ -55,6 +58,7 @@ class StandingCalibrateOptions(StandingSearchOptions):
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
     profiles: int = 0
+    select: bool = False
 
     def refuse_impossible(self) -> None:
         """Numbers without a search, a probability that is none."""

@@ -26,7 +26,7 @@ def phases_sought(
 ) -> tuple[CalibratedPhase, ...]:
     """A, and with an exoskeleton B, as the options have it."""
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
-    search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level, o.profiles)
+    search = PhaseSearch(options, o.nodes, o.starts, o.resamples, o.seed, o.level, o.profiles, o.select)
 
     def tell(phase: str, iteration: int, objective: float, residual: float) -> None:
         stage(f"phase {phase}, iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
@@ -131,6 +131,38 @@ def profile_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
         for each in phase.profiles
     ]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
+
+
+def selection_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
+    """Information of the trials on every candidate, in parts of its prior's, and which are identified together."""
+    rows = [
+        {
+            "phase": phase.name,
+            "parameter": each.name,
+            "turn": each.turn,
+            "information alone [-]": each.alone,
+            "information beside [-]": each.beside,
+            "selection": f"coupled with {each.partner}" if each.partner else each.outcome,
+            "free": "yes" if each.name in phase.phase.free else "no",
+        }
+        for phase in phases
+        for each in phase.selection
+    ]
+    columns = ["phase", "parameter", "turn", "information alone [-]", "information beside [-]", "selection", "free"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def say_selection(one: CalibratedPhase, asked: bool) -> None:
+    """Where the trials select otherwise than what is free, and that they were asked."""
+    chosen = {each.name for each in one.selection if each.outcome == "identified"}
+    if asked and chosen:
+        held = ", ".join(each.name for each in one.selection if each.name not in chosen)
+        say(
+            f"phase {one.name} frees what its trials identify together: {len(chosen)} of {len(one.selection)}"
+            + (f", not {held}" if held else "")
+        )
+    elif asked:
+        reserve(f"phase {one.name}: its trials identify no parameter, so that the usual ones are free")
 
 
 def certificate_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:

@@ -29,6 +29,8 @@ from geocontact.analyses.sit_to_stand.calibrate.phases import (
     parameters_table,
     phases_sought,
     profile_table,
+    say_selection,
+    selection_table,
 )
 from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
@@ -113,8 +115,8 @@ class StandingCalibrateResult(Result):
         return by_name(self.errors, ("trial", "quantity"), "rmsd")
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`parameters`, `errors`, `rmsd_by_trial`, `certificate`, `correlation`, `numbers`, `mesh`, `trial_NAME`;
-        `profiles` too.
+        """`parameters`, `errors`, `rmsd_by_trial`, `certificate`, `correlation`, `selection`, `numbers`, `mesh`;
+        `trial_NAME`, `profiles` too.
         """
         noise, tracks = self.given.noise, self.given.tracks
         own = {f"trial_{trial.recorded.name}": trial_table(trial, noise, tracks) for trial in self.trials}
@@ -124,6 +126,7 @@ class StandingCalibrateResult(Result):
             "rmsd_by_trial": rmsd_by_trial("phase", self.by_phase, self.given.trials, noise),
             "certificate": certificate_table(self.phases),
             "correlation": correlation_table(self.phases),
+            "selection": selection_table(self.phases),
             **({"profiles": profile_table(self.phases)} if self.options.profiles else {}),
             "numbers": ran_table(calibration_numbers(self.phases, self.given.trials)),
             "mesh": mesh_table("phase", [(phase.name, phase.found.motions) for phase in self.phases]),
@@ -159,11 +162,12 @@ class StandingCalibrateResult(Result):
     def write_files(self, folder: Path) -> None:
         """Trajectories and model, the strap's case for `gap gather`; tables, figure, page."""
         values = {n.name: n.value for n in self.phases[-1].numbers.numbers}
+        subject, sites = self.given.subject, self.given.sites
         for trial in self.trials:
-            write_motion(folder, self.given.subject, trial, values, self.found.solved)
-        write_standing_model(folder / "model.osim", self.given.subject, values, worn=self.given.exoskeleton)
+            write_motion(folder, subject, trial, values, self.found.solved, sites)
+        write_standing_model(folder / "model.osim", subject, values, worn=self.given.exoskeleton, sites=sites)
         if self.phases[-1].name == "B":
-            write_strap_case(folder / "gap", self.given.subject, self.given.trials, values)
+            write_strap_case(folder / "gap", subject, self.given.trials, values, damping=sites[0].damping)
         super().write_files(folder)
 
 
@@ -175,6 +179,7 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibra
     result = StandingCalibrateResult(options=o, given=given, phases=phases, trials=trials)
     for phase in phases:
         doubt_phase(phase)
+        say_selection(phase, o.select)
     _report(result)
     return result
 

@@ -17,13 +17,16 @@ from geocontact.data.errors import InputError
 from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
 from geocontact.standing_up.assistance_design import KNEE, NAMES
 from geocontact.standing_up.assistance_room import ROOM
-from geocontact.standing_up.assisted_model import ASSISTANCE_PARAMETERS, ASSISTED_PARAMETERS
-from geocontact.standing_up.assisted_movement import MEASURES, UNITS
-from geocontact.standing_up.exoskeleton import WORN_PARAMETERS
+from geocontact.standing_up.assisted_model import ASSISTANCE_PARAMETERS, EVERY_ASSISTED, assisted_parameters
+from geocontact.standing_up.assisted_movement import UNITS
 from geocontact.standing_up.help_search import CertifiedDesign, DrawnGain
-from geocontact.standing_up.strap_sites import ContactParameter, deviations, searched, usual
+from geocontact.standing_up.prediction import contact_parameters
+from geocontact.standing_up.strap_sites import ContactParameter, deviations, searched
 from geocontact.standing_up.trials import StandingUpTrials
 
+PERSONS = ("share", "timing")
+FURTHER = ("shank", "pelvis")
+"""What is chosen of no strap; sites besides the thigh."""
 LEVEL = 0.95
 """Probability of a calibration's intervals."""
 
@@ -51,29 +54,34 @@ def read(o: StandingDesignOptions) -> TrialsToHelp:
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)
-    if len(trials.sites) > 1:
-        remedy = f"leave out {', '.join(f'strap_{site.name}' for site in trials.sites[1:])}"
-        raise InputError(o.study, "", "a design has one strap, at the thigh", remedy)
+    known = contact_parameters(trials.sites)
+    names = {each.name for each in known}
+    odd = [name for name in o.varied if name not in PERSONS and ROOM[name][0] not in names]
+    odd += [o.aim] if o.aim in FURTHER and o.aim not in [site.name for site in trials.sites] else []
+    if odd:
+        site = odd[0].partition("_")[0]
+        what = f"{odd[0]!r} is of a strap at the {site}, and no trial of {o.study.name} has one"
+        raise InputError("", "`vary`, `aim`", what, f"name its force as strap_{site}, or leave it out")
     if trials.seated:
         remedy = "leave sitting out: a movement that is kept begins at seat-off"
         raise InputError(o.study, "sitting", "has no effect on a design", remedy)
-    bounds = {each.name: (each.least, each.most) for each in WORN_PARAMETERS}
-    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in WORN_PARAMETERS}, bounds)
+    bounds = {each.name: (each.least, each.most) for each in known}
+    values = read_contact_parameters(o.parameters, {each.name: each.unit for each in known}, bounds)
     ends = read_contact_intervals(o.parameters, values)
     add_input("`parameters`", o.parameters, parameters=len(values))
     if o.draws and not ends:
         remedy = "give parameters.csv of a calibration, or no draws"
         raise InputError(o.parameters, "lower, upper", "has no intervals to draw from", remedy)
-    p = searched(WORN_PARAMETERS, [values[each.name] for each in WORN_PARAMETERS])
-    sd = deviations(WORN_PARAMETERS, ends, LEVEL)
-    return TrialsToHelp(trials, np.r_[p, usual(ASSISTANCE_PARAMETERS)], np.r_[sd, np.zeros(len(ASSISTANCE_PARAMETERS))])
+    every = assisted_parameters(trials.sites)
+    p = searched(every, [values.get(each.name, each.usual) for each in every])
+    return TrialsToHelp(trials, p, deviations(every, ends, LEVEL))
 
 
 def in_units(one: CertifiedDesign) -> list[tuple[str, float, str]]:
     """Name, value and unit of what was sought."""
     if one.design is None:
         return []
-    each = [(name, ASSISTED_PARAMETERS[k]) for name, k in zip(one.design.task.vary, one.design.task.index, strict=True)]
+    each = [(name, EVERY_ASSISTED[k]) for name, k in zip(one.design.task.vary, one.design.task.index, strict=True)]
     p = one.movement.found.p
     return [(name, of.value(float(p[NAMES.index(of.name)])), "" if of.unit == "-" else of.unit) for name, of in each]
 
@@ -81,17 +89,19 @@ def in_units(one: CertifiedDesign) -> list[tuple[str, float, str]]:
 def designs_table(designs: Sequence[CertifiedDesign]) -> pd.DataFrame:
     """One row for each: all that can be chosen, smooth peaks, true peaks (largest), and the certificate."""
     without = designs[0].movement.asked
+    further = [site for site in FURTHER if site in without.measures]
+    room = {name: of for name, of in ROOM.items() if not name.startswith(FURTHER) or name.startswith(tuple(further))}
     rows = []
     for one in designs:
         p, asked = one.movement.found.p, one.movement.asked
         row: dict[str, object] = {"design": one.name, "limit of the knee [-]": one.limit}
-        for name, (parameter, _, _) in ROOM.items():
-            of = ASSISTED_PARAMETERS[NAMES.index(parameter)]
+        for name, (parameter, _, _) in room.items():
+            of = EVERY_ASSISTED[NAMES.index(parameter)]
             unit, factor = ("mm", 1e3) if of.unit == "m" else (of.unit, 1.0)
             row[f"{name} [{unit}]"] = factor * of.value(float(p[NAMES.index(parameter)]))
-        for k, measure in enumerate(MEASURES):
-            row[f"{measure} [{UNITS[measure]}]"] = float(asked.sizes[k])
-            row[f"largest {measure} [{UNITS[measure]}]"] = float(asked.largest[k])
+        for measure in asked.measures:
+            row[f"{measure} [{UNITS[measure]}]"] = asked.at(measure)
+            row[f"largest {measure} [{UNITS[measure]}]"] = asked.largest_at(measure)
         row["knee of without help [-]"] = float(asked.largest[KNEE] / without.largest[KNEE])
         row["smooth knee of without help [-]"] = float(asked.sizes[KNEE] / without.sizes[KNEE])
         row["price [1/(N m)]"] = np.nan if one.design is None else one.design.price
@@ -113,13 +123,14 @@ def chosen_table(best: CertifiedDesign) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def sensitivity_table(best: CertifiedDesign, sd: Float[np.ndarray, " p"]) -> pd.DataFrame:
+def sensitivity_table(best: CertifiedDesign, given: TrialsToHelp) -> pd.DataFrame:
     """How the least aim changes with every number that is held, and with the limit of the knee."""
     if best.design is None:
         raise ValueError("nothing was chosen")
-    task, rows = best.design.task, []
-    for k, of in enumerate(ASSISTED_PARAMETERS):
-        if k not in task.index:
+    task, sd, rows = best.design.task, given.sd, []
+    there = {each.name for each in (*contact_parameters(given.trials.sites), *ASSISTANCE_PARAMETERS)}
+    for k, of in enumerate(assisted_parameters(given.trials.sites)):
+        if k not in task.index and of.name in there:
             slope = float(best.design.slopes[k])
             per = "1 of the logarithm" if of.logarithm else f"1 {of.unit}" if of.unit != "-" else "1"
             told = {"number": of.name, "per": per, f"change [{UNITS[task.aim]}]": slope}

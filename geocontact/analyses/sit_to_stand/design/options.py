@@ -29,9 +29,10 @@ class StandingDesignOptions(StandingSearchOptions):
     ---------
     vary
         What is chosen, separated by commas: share (of the person's knee torque), timing, place (of the strap), normal,
-        tangential and turning (its stiffnesses).
+        tangential and turning (its stiffnesses); of straps at shank and pelvis shank_place, pelvis_normal and so on.
     aim
-        What is minimised: smooth peak of the strap's force, or mean energy of its springs.
+        What is minimised: smooth peak of the force of the strap at the thigh (strap), shank or pelvis, or mean energy
+        of all springs.
     knee
         Upper limit of the true peak torque of the person's knee, as part of the peak without help.
 
@@ -57,7 +58,7 @@ class StandingDesignOptions(StandingSearchOptions):
     _: KW_ONLY
     parameters: Path
     vary: Expression = "share,timing,place"
-    aim: Literal["strap", "energy"] = "strap"
+    aim: Literal["strap", "energy", "shank", "pelvis"] = "strap"
     knee: Annotated[Fraction, Spelled(default="0.8")] = 0.8
     front: int = 0
     draws: int = 0

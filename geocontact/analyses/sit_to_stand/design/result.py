@@ -42,8 +42,8 @@ from geocontact.analyses.sit_to_stand.trial_tables import mesh_table, not_certif
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
 from geocontact.standing_up.assistance_room import ROOM
-from geocontact.standing_up.assisted_model import ASSISTED_PARAMETERS, AssistedModel
-from geocontact.standing_up.assisted_movement import MEASURES, UNITS, StoppedByHandError
+from geocontact.standing_up.assisted_model import AssistedModel
+from geocontact.standing_up.assisted_movement import UNITS, StoppedByHandError
 from geocontact.standing_up.help_search import (
     ROBUST,
     WORN,
@@ -63,7 +63,12 @@ if TYPE_CHECKING:
 TOLERANCE = 1e-8
 PARTS = {"share": "of the person's knee torque", "timing": "of the movement"}
 """What numbers without a unit are parts of."""
-AIMS = {"strap": ("peak force of the strap", "smooth", "true"), "energy": ("energy of the strap", "mean", "largest")}
+AIMS = {
+    "strap": ("peak force of the strap", "smooth", "true"),
+    "energy": ("energy of the strap", "mean", "largest"),
+    "shank": ("peak force of the strap at the shank", "smooth", "true"),
+    "pelvis": ("peak force of the strap at the pelvis", "smooth", "true"),
+}
 """What is least, how it is measured, and what is said beside it."""
 
 
@@ -105,14 +110,14 @@ class StandingDesignResult(Result):
     @property
     def gain(self) -> float:
         """Part of the reference's aim that is saved [-]."""
-        k = MEASURES.index(self.options.aim)
-        return 1.0 - float(self.best.movement.asked.sizes[k] / self.reference.movement.asked.sizes[k])
+        aim = self.options.aim
+        return 1.0 - self.best.movement.asked.at(aim) / self.reference.movement.asked.at(aim)
 
     @property
     def true_gain(self) -> float:
         """The same of true peaks, or of the largest energy [-]."""
-        k = MEASURES.index(self.options.aim)
-        return 1.0 - float(self.best.movement.asked.largest[k] / self.reference.movement.asked.largest[k])
+        aim = self.options.aim
+        return 1.0 - self.best.movement.asked.largest_at(aim) / self.reference.movement.asked.largest_at(aim)
 
     @property
     def accepted(self) -> bool:
@@ -132,7 +137,7 @@ class StandingDesignResult(Result):
         found = {
             "designs": designs_table(self.designs),
             "chosen": chosen_table(self.best),
-            "sensitivity": sensitivity_table(self.best, self.given.sd),
+            "sensitivity": sensitivity_table(self.best, self.given),
             "certificate": certificates_table(every),
             "numbers": ran_table(design_numbers(self.model, every, self.given.trials.trials)),
             "mesh": mesh_table("design", [(one.name, one.movement.found.motions) for one in every]),
@@ -158,14 +163,13 @@ class StandingDesignResult(Result):
 
     def answered(self, designs: Sequence[CertifiedDesign]) -> list[AnsweredDesign]:
         """Aim (smooth) and knee (true) of designs."""
-        aim, knee = MEASURES.index(self.options.aim), MEASURES.index("knee")
-        peak = float(self.designs[0].movement.asked.largest[knee])
+        aim, peak = self.options.aim, self.designs[0].movement.asked.largest_at("knee")
         return [
             AnsweredDesign(
                 one.name,
                 one.limit,
-                float(one.movement.asked.sizes[aim]),
-                float(one.movement.asked.largest[knee]) / peak,
+                one.movement.asked.at(aim),
+                one.movement.asked.largest_at("knee") / peak,
             )
             for one in designs
         ]
@@ -173,10 +177,11 @@ class StandingDesignResult(Result):
     def write_files(self, folder: Path) -> None:
         """Trajectories and model; tables, figure, page."""
         p = self.best.movement.found.p
-        values = {of.name: of.value(float(value)) for of, value in zip(ASSISTED_PARAMETERS, p, strict=True)}
+        values = {of.name: of.value(float(value)) for of, value in zip(self.model.standing.parameters, p, strict=True)}
+        subject, sites = self.given.trials.subject, self.given.trials.sites
         for trial in self.best.trials:
-            write_motion(folder, self.given.trials.subject, trial, values, self.best.movement.found.solved)
-        write_standing_model(folder / "model.osim", self.given.trials.subject, values, worn=True)
+            write_motion(folder, subject, trial, values, self.best.movement.found.solved, sites)
+        write_standing_model(folder / "model.osim", subject, values, worn=True, sites=sites)
         super().write_files(folder)
 
 
@@ -189,7 +194,7 @@ def run(given: TrialsToHelp, o: StandingDesignOptions) -> StandingDesignResult:
     options = SolverOptions("radau", o.degree, 1, TOLERANCE, o.iterations, o.time_limit)
     with listener().stages("choosing") as stage:
         kept = given.trials
-        search = HelpSearch(kept.subject, kept.trials, given.p, given.sd, settings, options, stage)
+        search = HelpSearch(kept.subject, kept.trials, given.p, given.sd, settings, options, stage, kept.sites)
         with stopped_by_ctrl_c(search), _in_terms_of(o):
             worn = search.worn()
             designs = [worn, *search.chosen(worn, robust=o.robust)]
@@ -244,11 +249,12 @@ def doubt(r: StandingDesignResult, *, stopped: bool) -> None:
 
 def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
     """The aim and the knee by each design, what was chosen, the gain, and what it cost to find."""
-    aim, unit = MEASURES.index(r.options.aim), UNITS[r.options.aim]
+    aim, unit = r.options.aim, UNITS[r.options.aim]
     what, sought, beside = AIMS[r.options.aim]
     asked = {one.name: one.movement.asked for one in r.designs}
-    for how, sizes in ((sought, "sizes"), (beside, "largest")):
-        each = ", ".join(f"{name} {getattr(of, sizes)[aim]:.3g} {unit}" for name, of in asked.items())
+    for how, largest in ((sought, False), (beside, True)):
+        sizes = {name: of.largest_at(aim) if largest else of.at(aim) for name, of in asked.items()}
+        each = ", ".join(f"{name} {size:.3g} {unit}" for name, size in sizes.items())
         say(f"{what}, {how}: {each}")
     say(_of_knee(r))
     interval = gain_interval(r.draws)
@@ -258,10 +264,8 @@ def _report(r: StandingDesignResult, solved: int, seconds: float) -> None:
         "design",
         {
             "aim": r.options.aim,
-            "values": {
-                one.name: dict(zip(MEASURES, one.movement.asked.sizes.tolist(), strict=True)) for one in r.designs
-            },
-            "largest": {name: dict(zip(MEASURES, of.largest.tolist(), strict=True)) for name, of in asked.items()},
+            "values": {name: dict(zip(of.measures, of.sizes.tolist(), strict=True)) for name, of in asked.items()},
+            "largest": {name: dict(zip(of.measures, of.largest.tolist(), strict=True)) for name, of in asked.items()},
             "chosen": {name: value for name, value, _ in in_units(r.best)},
             "price": None if r.best.design is None else r.best.design.price,
             "gain": r.gain,
@@ -291,15 +295,11 @@ def _say_choice(r: StandingDesignResult, solved: int, seconds: float) -> None:
 def _of_knee(r: StandingDesignResult) -> str:
     """How far the knee's true peak and its smooth one are below those without help."""
     without, *others = r.designs
-    knee = MEASURES.index("knee")
-    parts = []
+    parts, own = [], without.movement.asked
+    peak = own.largest_at("knee")
     for one in others:
-        true, smooth = (
-            getattr(one.movement.asked, of)[knee] / getattr(without.movement.asked, of)[knee]
-            for of in ("largest", "sizes")
-        )
+        true, smooth = one.movement.asked.largest_at("knee") / peak, one.movement.asked.at("knee") / own.at("knee")
         parts.append(f"{one.name} {true:.1%} (smooth {smooth:.1%})")
-    peak = without.movement.asked.largest[knee]
     return f"knee at most {r.options.knee:.0%} of its true peak of {peak:.1f} N m without help: {', '.join(parts)}"
 
 

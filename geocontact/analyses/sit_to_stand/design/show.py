@@ -10,7 +10,7 @@ import pandas as pd
 from geocontact.analyses.sit_to_stand.show import PARTS, at_parts, motion_page, standing_scene
 from geocontact.data.motion import Course
 from geocontact.standing_up.assisted_model import KNEE
-from geocontact.standing_up.assisted_movement import MEASURES, UNITS
+from geocontact.standing_up.assisted_movement import UNITS
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.help_search import CertifiedDesign
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Points, stroke
@@ -104,7 +104,7 @@ def design_curves(designs: Sequence[CertifiedDesign], front: Sequence[CertifiedD
 
 def _front(each: Sequence[CertifiedDesign], aim: str) -> Curves:
     limits = 100.0 * np.array([one.limit for one in each])
-    values = np.array([one.movement.asked.sizes[MEASURES.index(aim)] for one in each])
+    values = np.array([one.movement.asked.at(aim) for one in each])
     over = Course("limit of the knee's true peak", "% of without help", np.array([limits.min(), limits.max()]))
     title = FRONT.format(aim, "mean" if aim == "energy" else "smooth peak")
     points = [Points("best", limits, values, joined=True), Points("designs", limits, values)]

@@ -85,7 +85,13 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
             what = "is not of a person with an exoskeleton, with force, centre, torque and strap"
             raise InputError(file, "", what, "write exoskeleton = true, and name torques and strap of each trial")
     if trials.subject != known.subject:
-        raise InputError(o.study, "mass", "is another person's than the calibration's", "predict trials of one person")
+        person = (trials.subject.mass, trials.subject.height) != (known.subject.mass, known.subject.height)
+        what = "is another person's" if person else "and device are another exoskeleton's"
+        what, remedy = f"{what} than the calibration's", "predict trials of one person with one exoskeleton"
+        raise InputError(o.study, "mass" if person else "[masses]", what, remedy)
+    dashpots = [(of.sites[0].damping, of.sites[0].turning_damping) for of in (trials, known)]
+    if dashpots[0] != dashpots[1]:
+        raise InputError(o.study, "[straps]", "are damped otherwise than the calibration's", "write the same in both")
     lacking = {site.name for site in trials.sites} - {site.name for site in known.sites}
     if lacking:
         what = f"has a strap at the {min(lacking)}, which the calibration does not have"
@@ -224,7 +230,8 @@ def _predicted(
         stage(f"iteration {iteration}, objective {objective:.5g}, residual {residual:.2g}")
 
     known = predictor.name, model, given.trials.subject, trial, given.trials.noise, predictor.p
-    return predicted_trial(*known, options, nodes=o.nodes, tracks=predictor.tracks, progress=tell)
+    tracks, weights = predictor.tracks, given.trials.weights
+    return predicted_trial(*known, options, nodes=o.nodes, tracks=tracks, weights=weights, progress=tell)
 
 
 def predicted_meshes(predictions: Sequence[PredictedTrial]) -> pd.DataFrame:

@@ -223,9 +223,10 @@ class StandingPredictResult(Result):
         self._write_motions(folder)
 
     def _write_motions(self, folder: Path) -> None:
+        subject = self.given.trials.subject
         for one in self.predictions:
             if one.name == ALL:
-                write_motion(folder, self.given.trials.subject, one.trial, self.given.values, one.solved)
+                write_motion(folder, subject, one.trial, self.given.values, one.solved, self.given.known.sites)
 
 
 def run(given: HeldOutTrials, o: StandingPredictOptions) -> StandingPredictResult:

@@ -1,0 +1,1 @@
+"""A recording of several movements cut into them."""

@@ -1,0 +1,128 @@
+"""An exoskeleton as a study describes it: bodies by its own motion, and torques of its hinges in a trial."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.data.errors import InputError
+from geocontact.identify.signals.filters import zero_lag
+from geocontact.io.recordings.device_numbers import read_device_numbers
+from geocontact.io.recordings.standing_study import StandingStudy, StandingTrialFiles
+from geocontact.io.text.tables import read_table
+from geocontact.standing_up.chain import JOINTS, Subject
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, part_lengths
+from geocontact.standing_up.exoskeleton_torque import parameter_names
+from geocontact.standing_up.worn_device import PARTS, DeviceMasses, WornDevice, identified_device
+
+CUTOFF = 6.0
+"""Cut-off of the hinges' angles, whose rates friction follows [Hz]; that of `sit-to-stand device` by default."""
+IDLE = 3.0
+"""Torque of motors that do not help, in parts of the noise of a torque, at the most."""
+BY_ITSELF = 11
+"""Parameters that a motion of all hinges identifies by themselves."""
+Times = Float[np.ndarray, " t"]
+Table = Float[np.ndarray, "t c"]
+Used = Bool[np.ndarray, " t"]
+
+
+def worn_device(study: StandingStudy, file: Path) -> WornDevice:
+    """The exoskeleton of a study; InputError where its numbers are of another person's height or leave no inertia."""
+    masses = DeviceMasses(**study.masses)
+    if study.device is None:
+        return WornDevice(masses)
+    found = read_device_numbers(study.device, parameter_names())
+    add_input("device", study.device, parameters=len(found.values))
+    if abs(found.height - study.height) > 1e-6:
+        what = f"is of an exoskeleton that is set to {found.height:g} m, the person is {study.height:g} m tall"
+        raise InputError(study.device, "height", what, f"run sit-to-stand device with height {study.height:g} m")
+    if found.by_itself < BY_ITSELF:
+        what = f"identifies {found.by_itself} parameters by themselves, where a motion of all hinges has {BY_ITSELF}"
+        raise InputError(study.device, "", what, "move all three hinges in the motion without a person")
+    lacking = [name for name in vars(masses) if name not in study.masses]
+    if lacking:
+        reserve(
+            f"{file.name}: no mass of {', '.join(lacking)}: invented ones are used, which no motion without a person "
+            "identifies; weigh the parts, and write [masses]"
+        )
+    lengths = part_lengths(Subject(study.mass, study.height))
+    try:
+        device = identified_device(found.values, lengths, masses)
+    except ValueError as error:
+        remedy = "weigh the parts, and check [masses]: they are of both sides"
+        raise InputError(study.device, "", str(error), remedy) from error
+    for part, more in zip(PARTS, device.raised, strict=True):
+        if more > 0.0:
+            reserve(
+                f"{study.device.name}: the inertia of {part} is raised by {more:.2g} kg m² to be that of a body: "
+                "faster motions without a person, or its true mass, identify it better"
+            )
+    return device
+
+
+def joint_torques(
+    files: StandingTrialFiles, device: WornDevice, time: Times, angles: Table, used: Used, noise: float
+) -> Table | None:
+    """Torques of all joints at the times that are used [N m]; None where a trial has none.
+
+    Those of the exoskeleton are in the same file, or its motors' less friction, or friction alone where it does not
+    help.
+
+    Parameters
+    ----------
+    time, angles
+        Of the whole recording; coordinates of the exoskeleton's hinges [rad], no column without one.
+    noise
+        Standard deviation of a torque [N m].
+    """
+    if files.torques is None:
+        return None
+    role, at = f"{files.name} torques", time[used]
+    person = columns_at(files.torques, JOINTS, role, at)
+    if not angles.shape[1]:
+        return person
+    there = [name for name in EXO_JOINTS if name in read_table(files.torques).channels]
+    if there and files.motors is not None:
+        remedy = f"leave motors out, or {there[0]} out of {files.torques.name}"
+        raise InputError(files.torques, "", f"has torques of the exoskeleton, as has motors of {files.name}", remedy)
+    if there or (files.motors is None and files.mode in (None, "active")):
+        if not there:
+            remedy = f'add {", ".join(EXO_JOINTS)}, name the file of its motors as motors, or write mode = "passive"'
+            raise InputError(files.torques, "", f"no column '{EXO_JOINTS[0]}'", remedy)
+        torque = columns_at(files.torques, EXO_JOINTS, role, at)
+        _doubt_mode(files, torque, noise)
+        return np.hstack([person, torque])
+    step = float(np.ptp(time)) / (len(time) - 1)
+    friction = device.friction(np.gradient(zero_lag(angles, step, CUTOFF), step, axis=0))[used]
+    if not device.identified:
+        reserve(f"{files.name}: hinges without friction: name numbers.csv of sit-to-stand device as device")
+    motors = np.zeros_like(friction)
+    if files.motors is not None:
+        motors = columns_at(files.motors, EXO_JOINTS, f"{files.name} motors", at)
+        _doubt_mode(files, motors, noise)
+    return np.hstack([person, motors - friction])
+
+
+def _doubt_mode(files: StandingTrialFiles, torque: Table, noise: float) -> None:
+    """A mode that the torques contradict."""
+    size = float(np.sqrt(np.mean(torque**2, axis=0)).max())
+    if files.mode in ("passive", "off") and size > IDLE * noise:
+        reserve(f"{files.name}: mode {files.mode}, and torques of {size:.1f} N m (root mean square): it helps")
+    if files.mode == "active" and size < noise:
+        reserve(f"{files.name}: mode active, and torques of {size:.2g} N m (root mean square): it does not help")
+
+
+def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Table:
+    """Columns as they are, in SI, at the times of the trial."""
+    table = read_table(file)
+    add_input(role, file, frames=len(table.time))
+    values = np.column_stack([table.needed(name) for name in names])
+    begin, end = table.time[[0, -1]]
+    if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:
+        what = f"runs from {begin:g} to {end:g} s, the trial from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(file, "", what, "put both on one clock")
+    return np.column_stack([np.interp(time, table.time, column) for column in values.T])

@@ -1,0 +1,150 @@
+"""Bodies and friction of an exoskeleton that is worn: the shipped ones, or those that its own motion identified.
+
+The motors of an exoskeleton whose foot plate stands on the ground see its bodies in sums. A part that hangs at the end
+of another one acts on the hinges below as a point mass there (Khalil & Dombre (2002), Modeling, identification and
+control of robots, ch. 9.4): with masses m, first moments along the part s = m c_y, inertias I about the hinges and
+lengths L
+
+    s₁ + L₁ (m₂ + m₃),  I₁ + L₁² (m₂ + m₃),  s₂ + L₂ m₃,  I₂ + L₂² m₃
+
+and all first moments across, s₃ and I₃ are what acts; masses alone do not. So masses are taken from a scale, and the
+rest follows from these sums: the motors' torques are those of the fit whatever the masses are. Weights show first
+moments sharply and slow motions inertias badly, so that a part may come out with no inertia about its mass centre;
+then it is raised to that of a body with a least radius of gyration, as far as that is within the fit's own error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+PARTS = ("exo_shank", "exo_thigh", "exo_module")
+"""Bodies from the foot upwards; the hinges exo_ankle, exo_knee and exo_hip turn them."""
+TURNS = float(np.radians(1.0))
+"""Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
+GYRATION = 0.1
+"""Least radius of gyration, in parts of the length; invented."""
+RAISED = 0.2
+"""Part of the inertia that acts at a hinge, by which that of a part may be raised; invented."""
+Table = Float[np.ndarray, "t 3"]
+
+
+@dataclass(frozen=True)
+class DevicePart:
+    """A body of both sides.
+
+    Parameters
+    ----------
+    mass
+        Mass [kg].
+    along, across
+        Mass centre above its hinge and ahead of it [m].
+    inertia
+        About z through the mass centre [kg m^2].
+    """
+
+    mass: float
+    along: float
+    across: float
+    inertia: float
+
+
+@dataclass(frozen=True)
+class DeviceMasses:
+    """Masses of both sides [kg]; the shipped ones are invented."""
+
+    foot_plate: float = 2.0
+    shank: float = 3.0
+    thigh: float = 4.0
+    module: float = 5.0
+
+    @property
+    def parts(self) -> tuple[float, float, float]:
+        """Masses of `PARTS`."""
+        return self.shank, self.thigh, self.module
+
+
+@dataclass(frozen=True)
+class WornDevice:
+    """An exoskeleton.
+
+    Parameters
+    ----------
+    masses
+        Masses of its bodies.
+    parts
+        Bodies in the order of `PARTS`; uniform rods where there are none.
+    viscous, coulomb
+        Friction of its hinges, both sides [N m s/rad], [N m].
+    raised
+        By which the inertia of each part was raised to be that of a body [kg m^2].
+    """
+
+    masses: DeviceMasses = DeviceMasses()
+    parts: tuple[DevicePart, ...] = ()
+    viscous: tuple[float, ...] = (0.0, 0.0, 0.0)
+    coulomb: tuple[float, ...] = (0.0, 0.0, 0.0)
+    raised: tuple[float, ...] = (0.0, 0.0, 0.0)
+
+    @property
+    def identified(self) -> bool:
+        """Whether its dynamics are those of its own motion."""
+        return bool(self.parts)
+
+    def bodies(self, lengths: tuple[float, float, float]) -> tuple[DevicePart, ...]:
+        """Bodies of these lengths [m]."""
+        if self.parts:
+            return self.parts
+        rods = zip(self.masses.parts, lengths, strict=True)
+        return tuple(DevicePart(mass, 0.5 * length, 0.0, mass * length**2 / 12.0) for mass, length in rods)
+
+    def friction(self, rates: Table) -> Table:
+        """Friction of each hinge, against its rate [N m]."""
+        return np.asarray(np.array(self.viscous) * rates + np.array(self.coulomb) * np.tanh(rates / TURNS))
+
+
+SHIPPED_DEVICE = WornDevice()
+
+
+def identified_device(
+    values: Mapping[str, float], lengths: tuple[float, float, float], masses: DeviceMasses
+) -> WornDevice:
+    """The exoskeleton of these masses whose motors need what a motion without a person showed.
+
+    ValueError where the masses leave a part no inertia, and much less than the least.
+
+    Parameters
+    ----------
+    values
+        Dynamic parameters by the names of `ExoskeletonDynamics`, in SI.
+    lengths
+        Lengths of the parts that they were found with [m].
+    """
+
+    def of(kind: str) -> Float[np.ndarray, " 3"]:
+        return np.array([values[f"{part} {kind}"] for part in PARTS])
+
+    told, taken = of("mass"), np.array(masses.parts)
+    # masses above a part, which hang at its end
+    above = np.array([told[1:].sum(), told[2], 0.0]) - np.array([taken[1:].sum(), taken[2], 0.0])
+    length = np.array(lengths)
+    along = (of("first moment along y") + length * above) / taken
+    across = of("first moment along x") / taken
+    about = of("inertia") + length**2 * above
+    acting = about + length**2 * [taken[1:].sum(), taken[2], 0.0]
+    inertia = about - taken * (along**2 + across**2)
+    raised = np.maximum(taken * (GYRATION * length) ** 2 - inertia, 0.0)
+    for part, own, more, whole in zip(PARTS, inertia, raised, acting, strict=True):
+        if more > RAISED * whole:
+            raise ValueError(f"{part} has no inertia left about its mass centre ({own:.3g} kg m²)")
+    parts = zip(taken, along, across, inertia + raised, strict=True)
+    hinges = [part.replace("shank", "ankle").replace("thigh", "knee").replace("module", "hip") for part in PARTS]
+    viscous, coulomb = (
+        tuple(values[f"{hinge} {kind} friction"] for hinge in hinges) for kind in ("viscous", "Coulomb")
+    )
+    made = tuple(DevicePart(*(float(each) for each in row)) for row in parts)
+    more = tuple(float(each) for each in raised)
+    return replace(WornDevice(masses), parts=made, viscous=viscous, coulomb=coulomb, raised=more)
