@@ -88,7 +88,7 @@ def test_play_is_a_loop_that_does_not_depend_on_rate() -> None:
     values = {**system.start, "play.angle.width": 0.1, "play.angle.start": 0.5}
     angle, last, followed = trials[0].column("angle"), trials[0].column("angle")[0] - 0.025, []
     for value in angle:
-        last = value - 0.05 if last < value - 0.05 else value + 0.05 if last > value + 0.05 else last
+        last = max(value - 0.05, min(last, value + 0.05))
         followed.append(last)
     bare = {**values, "b": 0.0}
     want = system.simulate(recording("t0", trials[0].time, {"angle": np.array(followed)}, **trials[0].covariates), bare)

@@ -216,7 +216,7 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
         subtitle=_subtitle(case, d),
         time=OVER.values,
         time_label=OVER.label,
-        headline=headline([*injected[1:], *sentences], most=(2 if d.verdict == "explained" else 1) + len(injected[1:])),
+        headline=headline([*injected[1:], *sentences], most=(2 if d.effects else 1) + len(injected[1:])),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
