@@ -27,7 +27,9 @@ from tests.unchecked import unchecked
 
 TABLES = {"diagnosis.json", "run.json", "gap_map.csv", "ranking.csv", "held_out.csv", "trials.csv", "budget.csv"}
 FIGURES = {
-    f"{name}.{ending}" for name in ("gap_map", "reductions", "ranking", "gap_residuals") for ending in ("png", "svg")
+    f"{name}.{ending}"
+    for name in ("budget", "gap_map", "reductions", "ranking", "gap_residuals")
+    for ending in ("png", "svg")
 }
 KEYS = [
     "case",
@@ -43,6 +45,7 @@ KEYS = [
     "where",
     "gap",
     "budget",
+    "detected",
     "parameters",
 ]
 KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]

@@ -21,7 +21,8 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Ranked, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell
-from geocontact.gap.diagnose import Findings, behind, partial
+from geocontact.gap.budget_verdict import partial
+from geocontact.gap.diagnose import Findings, behind
 from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curves, Intervals, Page, Picture, Strips, Table, Words
 from geocontact.view.page.write import page_html

@@ -31,6 +31,13 @@ VERDICTS = {
     "unknown": "unknown",
     "unresolved": "unresolved",
 }
+PART_WORDS = {
+    "sensor": "noise of the sensor",
+    "inputs": "noise of the inputs",
+    "variation": "variation from trial to trial",
+    "effects": "what is named",
+    "unexplained": "unexplained",
+}
 MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 
 
