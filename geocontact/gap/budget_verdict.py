@@ -8,7 +8,8 @@ shares of all channels in units of their floors:
     unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, and nothing is sure
     no_gap             what is unexplained is less than that in every channel, as stated noise has it
 
-What is named takes something away on held-out trials, or is not named. Something *surely missed* repeats from trial to
+What is named and surely takes less than `WORTH_NAMING` of every channel is not named: it is
+detected (`gap.detected`). Something *surely missed* repeats from trial to
 trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides.
 
 An effect beside which something remains is *sure* where no rule speaks against it, its gain is `SURE` beyond that of
@@ -56,16 +57,33 @@ def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[fl
 def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Answer:
     """The answer as the budget of its own model has it; see the module."""
     said = found.answer
+    sure = any(one.missed >= WORTH_NAMING for one in budget.values())
+    if said.effects and found.data_error is None and takes_little(budget):
+        return _unnamed(found, sure)
     if said.effects:
         takes, missed = totals(budget, errors, found.problem)
-        much = missed > LEFT_OVER * (takes + missed)
+        much = sure and missed > LEFT_OVER * (takes + missed)
         return replace(said, verdict="partly_explained") if much else said
-    sure = any(one.missed >= WORTH_NAMING for one in budget.values())
     if said.verdict == "no_gap" and sure:
         return _moved(said, "none", "unknown", "unknown")
     if said.verdict == "unknown" and not sure and closed(found, budget):
         return _moved(said, "unknown", "none", "no_gap")
     return said
+
+
+def takes_little(budget: Budget) -> bool:
+    """Whether what is named surely takes less than `WORTH_NAMING` of the squared error of every channel."""
+    return all(one.parts["effects"].ci95[1] < WORTH_NAMING for one in budget.values())
+
+
+def _unnamed(found: Attribution, sure: bool) -> Answer:
+    """Nothing named: no gap, or unknown where something is surely missed; it has the effects' probability."""
+    said, instead = found.answer, "unknown" if sure else "none"
+    moved = sum(said.probabilities.get(name, 0.0) for name in said.effects)
+    odds = {**said.probabilities, **dict.fromkeys(said.effects, 0.0)}
+    odds[instead] = odds.get(instead, 0.0) + moved
+    odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
+    return Answer("unknown" if sure else "no_gap", (), odds, said.ambiguity, found.base)
 
 
 def closed(found: Attribution, budget: Budget) -> bool:

@@ -201,7 +201,10 @@ def budgeted(
 ) -> tuple[Attribution, RawInputErrors, dict[str, ChannelBudget], Partial | None]:
     """The answer as its budget has it, its errors, the budget, and what explains a part of a gap that stays unknown."""
     budget = _budget(found, errors)
-    found = replace(found, answer=by_budget(found, budget, errors))
+    before, found = found, replace(found, answer=by_budget(found, budget, errors))
+    if found.answer.chosen is not before.answer.chosen:
+        errors = errors_of(found)
+        budget = _budget(found, errors)
     best = partial(found) if found.answer.verdict == "unknown" else None
     if best is None:
         return found, errors, budget, None

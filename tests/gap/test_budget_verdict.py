@@ -36,6 +36,7 @@ def given(verdict: str, *effects: str, stated: bool = True) -> tuple[Mock, Mock]
     found = Mock(spec=Attribution)
     found.problem, found.stated = problem, {"force": 1.0, "moment": 1.0} if stated else {"force": 1.0}
     chosen = contender(5.0, *effects) if effects else contender(0.0)
+    found.data_error, found.base = None, contender(0.0)
     found.answer = Answer(verdict, effects, ODDS, effects, chosen)  # type: ignore[arg-type]
     errors = Mock(spec=RawInputErrors)
     errors.before = [np.full((1, 2), 99.0), np.full((1, 2), 10.0)]
@@ -77,6 +78,16 @@ def test_explained_in_part_where_a_quarter_of_what_is_taken_is_missed(share: flo
     assert (missed > LEFT_OVER * (0.6 + missed)) == (share > 1.0)
     said = verdict(*given("explained", "damping"), channel(0.6, 0.2, missed))
     assert said.verdict == ("partly_explained" if share > 1.0 else "explained") and said.effects == ("damping",)
+
+
+def test_what_surely_takes_less_than_a_tenth_is_not_named() -> None:
+    """It is no gap, or unknown where something is surely missed; nothing missed is never explained in part."""
+    found, errors = given("explained", "damping")
+    little = verdict(found, errors, channel(0.09, 0.0, 0.0))
+    assert (little.verdict, little.effects, little.chosen) == ("no_gap", (), found.base)
+    assert little.probabilities["damping"] == 0.0 and little.probabilities["none"] == 0.8
+    assert verdict(found, errors, channel(0.09, 0.5, 0.4)).verdict == "unknown"
+    assert verdict(found, errors, channel(0.11, 0.0, 0.0), channel(-0.2, 0.0, 0.0)).verdict == "explained"
 
 
 def test_what_is_explained_in_part_takes_half_of_unknown() -> None:

@@ -186,8 +186,8 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     missing = max(len(findings.held_out) * len(d.gap) - PANELS, 0)
     sentences = verdict_sentences(d, findings.cells)
     sections: list[Section] = [
-        *budget_picture(findings, drawings),
         *first,
+        *budget_picture(findings, drawings),
         reduction_bars(findings),
         ranking_bars(findings),
         map_strips(findings),
@@ -208,12 +208,21 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
         subtitle=_subtitle(case, d),
         time=OVER.values,
         time_label=OVER.label,
-        headline=headline([*injected[1:], *sentences], most=(2 if d.effects else 1) + len(injected[1:])),
+        headline=_headline(findings, sentences, injected),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
     )
+
+
+def _headline(findings: Findings, sentences: Sequence[str], injected: Sequence[str]) -> tuple[str, ...]:
+    """The verdict, what is expected of a new trial, and the budget of the channel with most of the gap."""
+    d = findings.diagnosis
+    main = d.where[0].channel if d.where else next(iter(d.gap))
+    first = [*injected[1:], *sentences[: 2 if d.effects else 1]]
+    budget = [line for line in budget_words(findings) if line.startswith(f"{main}:")]
+    return headline([*first, *budget], most=len(first) + 1)
 
 
 def _sentence(words: str) -> str:

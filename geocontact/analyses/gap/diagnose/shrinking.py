@@ -70,10 +70,13 @@ def expected_words(gaps: Mapping[str, ChannelGap]) -> str:
         of = f" for {name}" if len(gaps) > 1 else ""
         if gap.ci95[1] - gap.ci95[0] > SILENT:
             many = counted(gap.trials, "held-out trial") if gap.trials else "the held-out trials"
-            parts.append(f"{many} {'does' if gap.trials == 1 else 'do'} not show how far the error shrinks{of}")
+            parts.append(
+                f"{many} {'does' if gap.trials == 1 else 'do'} not show how far the error shrinks{of}: record more"
+            )
         else:
             parts.append(f"{percent(gap.reduction)} % expected{of}, 95 % interval {interval(gap.ci95)}")
-    wide = [gap for gap in gaps.values() if gap.ci95[1] - gap.ci95[0] > BROAD and 0 < gap.trials <= FEW_TRIALS]
+    widths = {name: gap.ci95[1] - gap.ci95[0] for name, gap in gaps.items()}
+    wide = [g for name, g in gaps.items() if BROAD < widths[name] <= SILENT and 0 < g.trials <= FEW_TRIALS]
     if wide:
         count = min(gap.trials for gap in wide)
         there = f"{'is' if count == 1 else 'are'} {counted(count, 'held-out trial')}"
