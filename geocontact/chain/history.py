@@ -66,11 +66,11 @@ def between(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int, a
 
 
 @kernel
-def delayed(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], delay: float) -> Float[np.ndarray, "t c"]:
-    """Each column as it was `delay` seconds ago."""
-    out = values.copy()
-    if delay == 0.0:
-        return out
+def read_at(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], at: Float[np.ndarray, " t"]
+) -> Float[np.ndarray, "t c"]:
+    """Each column as it was, or will be, at the times `at`; after the last sample it stays as it is there."""
+    out = np.full_like(values, np.nan)
     for c in range(values.shape[1]):
         y = values[:, c].copy()
         low, high, first = extent(y)
@@ -78,16 +78,42 @@ def delayed(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], del
             continue
         set_out = outset(time, y, first)
         i = 0
-        for j in range(y.size):
-            at = time[j] - delay
-            if at < time[0]:
-                run = y[first] + set_out * (at - time[first])
+        for j in range(at.size):
+            if at[j] < time[0]:
+                run = y[first] + set_out * (at[j] - time[first])
                 out[j, c] = min(max(run, low), high) if first == 0 else np.nan
                 continue
-            while i + 2 < y.size and time[i + 1] <= at:
+            while i + 2 < y.size and time[i + 1] <= at[j]:
                 i += 1
-            out[j, c] = between(time, y, i, at)
+            while i > 0 and time[i] > at[j]:
+                i -= 1
+            out[j, c] = between(time, y, i, at[j])
     return out
+
+
+@kernel
+def delayed(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"], delay: float) -> Float[np.ndarray, "t c"]:
+    """Each column as it was `delay` seconds ago."""
+    return values.copy() if delay == 0.0 else read_at(time, values, time - delay)
+
+
+@kernel
+def with_play(
+    position: Float[np.ndarray, " t"], width: float, start: float
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
+    """What follows a position with a play of `width` around it, and 1 where it is carried along, 0 where it rests.
+
+    At first it lies `start` half-widths behind the middle of the play.
+    """
+    out, carried = np.empty(position.size), np.zeros(position.size)
+    last = position[0] - start * 0.5 * width
+    for k in range(position.size):
+        low, high = position[k] - 0.5 * width, position[k] + 0.5 * width
+        if last <= low or last >= high:
+            carried[k] = 1.0
+        last = min(max(last, low), high)
+        out[k] = last
+    return out, carried
 
 
 @kernel

@@ -63,7 +63,7 @@ class Ranked:
     probability: float | None
 
 
-Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
+Verdict = Literal["explained", "partly_explained", "no_gap", "unknown", "unresolved"]
 
 
 @dataclass(frozen=True)
@@ -158,6 +158,39 @@ class BudgetPart:
 
 
 @dataclass(frozen=True)
+class Detected:
+    """An effect that is sure, whether it is worth a name or not.
+
+    Parameters
+    ----------
+    effect
+        Its name.
+    nats
+        Evidence of the model that has it over the one without it.
+    channel
+        That loses most by it.
+    share, ci95
+        Of that channel's squared error of the base model on held-out trials, and its 95 % interval.
+    """
+
+    effect: str
+    nats: float
+    channel: str
+    share: float
+    ci95: tuple[float, float]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The content of diagnosis.json."""
+        return {
+            "effect": self.effect,
+            "nats": self.nats,
+            "channel": self.channel,
+            "share": self.share,
+            "ci95": list(self.ci95),
+        }
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A parameter's value, its 95 % interval, and whether the trials identify it."""
 
@@ -236,7 +269,7 @@ class Diagnosis:
     be invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
     enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
-    `variation`, `effects`, `unexplained`.
+    `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not.
     """
 
     case: str
@@ -259,6 +292,7 @@ class Diagnosis:
     one_law: tuple[tuple[str, ...], ...] = ()
     apart: Mapping[str, float] = field(default_factory=dict)
     budget: Mapping[str, Mapping[str, BudgetPart]] = field(default_factory=dict)
+    detected: tuple[Detected, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -294,6 +328,7 @@ class Diagnosis:
                 channel: {name: {"share": part.share, "ci95": list(part.ci95)} for name, part in parts.items()}
                 for channel, parts in self.budget.items()
             },
+            "detected": [one.as_dict() for one in self.detected],
             "parameters": {
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
                 for name, e in self.parameters.items()

@@ -7,6 +7,7 @@ from geocontact.chain.system import System
 from geocontact.effects.data_errors.side_swap import SIDE_SWAP
 from geocontact.effects.data_errors.sign_flip import SIGN_FLIP
 from geocontact.effects.data_errors.unit_error import UNIT_ERROR
+from geocontact.effects.measurement.clock_slip import CLOCK_SLIP
 from geocontact.effects.measurement.crosstalk import CROSSTALK
 from geocontact.effects.measurement.filter_lag import FILTER_LAG
 from geocontact.effects.measurement.saturation import SATURATION
@@ -25,6 +26,7 @@ from geocontact.effects.mechanical.event_load import EVENT_LOAD
 from geocontact.effects.mechanical.gravity_load import GRAVITY_LOAD
 from geocontact.effects.mechanical.inertia_load import INERTIA_LOAD
 from geocontact.effects.mechanical.motion_offset import MOTION_OFFSET
+from geocontact.effects.mechanical.play import PLAY
 from geocontact.effects.mechanical.preload import PRELOAD
 from geocontact.effects.mechanical.relaxation import RELAXATION
 from geocontact.effects.mechanical.series_compliance import SERIES_COMPLIANCE
@@ -33,8 +35,10 @@ from geocontact.effects.mechanical.stiffening import STIFFENING
 
 EFFECTS: tuple[Effect, ...] = (
     TIME_SHIFT,
+    CLOCK_SLIP,
     FILTER_LAG,
     MOTION_OFFSET,
+    PLAY,
     AXIS_MIGRATION,
     SERIES_COMPLIANCE,
     STIFFENING,

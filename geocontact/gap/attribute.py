@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
@@ -25,7 +24,6 @@ from geocontact.gap.selection.residual_anomalies import (
     recorder_remarks,
     residual_anomalies,
 )
-from geocontact.gap.selection.stated_noise import Misfit, misfits, with_misfit
 from geocontact.gap.selection.surrogate import Surrogate, surrogate
 from geocontact.gap.selection.tails import Tails, tails
 from geocontact.gap.selection.verdict import (
@@ -43,7 +41,6 @@ from geocontact.identify.noise.student import StudentNoise
 CLIPPED = "saturation"  # what a flat top speaks for
 
 Offer = Callable[[System], Sequence[Candidate]]
-Fits = Callable[[Judged, Judged], tuple[Misfit, ...]]
 Listener = Callable[[str], None]
 """Is called with what is being done, as each stage of a diagnosis begins."""
 
@@ -82,8 +79,8 @@ class Attribution:
         The verdict.
     heavy
         Channels whose noise has heavy tails, in which samples and stretches have weights.
-    misfits
-        What the model that an answer would rest on misses, against the noise that the case states.
+    stated
+        Standard deviation of the noise of channels, in their units, as the case states it.
     """
 
     problem: Problem
@@ -98,7 +95,7 @@ class Attribution:
     flat: tuple[ClippedChannel, ...]
     answer: Answer
     heavy: Mapping[str, StudentNoise] = field(default_factory=dict)
-    misfits: tuple[Misfit, ...] = ()
+    stated: Mapping[str, float] = field(default_factory=dict)
 
 
 def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
@@ -128,7 +125,7 @@ def _attributed(
 
     Where what nobody accounts for has heavy tails, it is held again with their weights.
     """
-    ends, even = Ends(), clean
+    ends = Ends()
     held = _contest(clean, data_error, Tails.none(clean), ends, offer, case, at)
     heavy = tails(clean, held.leader.judged, held.rest.predicted)
     if heavy.channels:
@@ -136,8 +133,7 @@ def _attributed(
         weighed = replace(heavy.weighed(clean), noise=held.base.judged.noise)
         problem, clean = weighed if clean is problem else problem, weighed
         held = _contest(clean, data_error, heavy, ends, offer, case, at)
-    fits = partial(misfits, even, with_rounding(case))
-    return replace(_answered(problem, data_error, clean, held, at, fits), heavy=heavy.channels)
+    return replace(_answered(problem, data_error, clean, held, at), heavy=heavy.channels, stated=with_rounding(case))
 
 
 @dataclass(frozen=True)
@@ -201,12 +197,9 @@ def _contest(
 
 
 def _answered(
-    problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener, fits: Fits
+    problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener
 ) -> Attribution:
-    """The verdict on a contest: what may be named, and what is left over.
-
-    `fits` tells what a model misses against the stated noise, beside the base model.
-    """
+    """The verdict on a contest: what may be named, and what is left over."""
     base, contenders, leader = contest.base, contest.contenders, contest.leader.judged
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
     at("whether held-out trials are predicted better")
@@ -228,8 +221,6 @@ def _answered(
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, missing), most_of(possible, little)
     said = with_refused(answer(held, unnamed, max((each.part for each in odd), default=0.0), left, known), possible)
-    missed = fits(said.chosen.judged, base.judged)
-    said = with_misfit(said, fits(base.judged, base.judged), missed, base)
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
@@ -246,7 +237,6 @@ def _answered(
         objections,
         contest.flat,
         said,
-        misfits=missed,
     )
 
 

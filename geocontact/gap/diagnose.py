@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 
 import numpy as np
@@ -26,17 +26,19 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
+from geocontact.gap.budget_verdict import by_budget, named_in_part, partial, sure_beside, totals
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
+from geocontact.gap.detected import detected
 from geocontact.gap.experiment.proposal import first_of, next_experiment
-from geocontact.gap.held_out_growth import confirmed
+from geocontact.gap.held_out_growth import confirmed, errors_of
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.identifiability.separability import one_law
 from geocontact.gap.levels import SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
-from geocontact.gap.reduction.error_budget import error_budget
+from geocontact.gap.reduction.error_budget import ChannelBudget, error_budget
 from geocontact.gap.reduction.error_reduction import (
     TrialGain,
     error_reduction,
@@ -47,31 +49,8 @@ from geocontact.gap.reduction.error_reduction import (
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
-from geocontact.gap.selection.stated_noise import loudest
+from geocontact.gap.selection.verdict import Answer
 from geocontact.identify.intervals.quantile_intervals import ENDS
-
-
-def partial(found: Attribution) -> Partial | None:
-    """What the effect that gains most explains of a gap that is not all explained by it; two, where a second one adds
-    as much as it must to be named.
-
-    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical, nor a mistake in
-    the data, which is there or not but is no part of a gap. None where nobody gains more than luck may, and where no
-    channel loses `WORTH_NAMING` of its squared error on held-out trials, what an effect must take to be named.
-    """
-    able = [one for one in found.contenders if not one.cut_short and not one.mistaken]
-    free = [one for one in able if one.label not in found.objections]
-    alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
-    both = max(free, key=lambda one: one.nats, default=found.base)
-    needed = SURE + WORTH_NAMING * max(alone.nats - found.base.nats, 0.0)
-    best = both if both.nats - alone.nats > needed else alone
-    gain = best.nats - found.base.nats
-    if gain < SURE:
-        return None
-    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
-    if all(1.0 - (1.0 - s.reduction) ** 2 < WORTH_NAMING for s in shrunk.values()):
-        return None
-    return Partial(best.names, gain, {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()})
 
 
 def nearest(found: Attribution) -> tuple[str, ...]:
@@ -155,8 +134,10 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         As in `diagnose`.
     """
     found, errors = confirmed(case, found, at)
+    at("what the error consists of")
+    found, errors, budget, part = budgeted(found, errors)
     said, problem = found.answer, found.problem
-    named = bool(said.effects) or said.verdict == "unresolved"
+    named = is_named(said)
     chosen = said.chosen.judged
     offered = candidates(found.clean.system)
     at("what would be invisible")
@@ -169,7 +150,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     cells = gap_map(found.clean, found.base.judged)
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
     curves = held_out(problem, errors, named)
-    gap = _gaps(found, errors, named, curves)
+    gap = _gaps(found, errors, named, curves, budget)
     stages = {one.name: one.stage for one in offered}
     stage = stages.get(said.effects[0], "") if said.effects else ""
     after = chosen if named else None
@@ -183,7 +164,6 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
             for w in windows(problem, found.clean, found.base.judged, after, found.data_error, as_came)
         )
     )
-    part = partial(found) if said.verdict == "unknown" else None
     diagnosis = Diagnosis(
         case=case.name,
         system=case.system,
@@ -198,27 +178,68 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found),
-        remarks=_remarks(found, part is None, errors),
+        remarks=_remarks(found, part is None, errors, budget),
         next_experiment=then,
         partial=part,
         behind=behind(found) if said.effects else {},
         one_law=law.classes,
         apart=law.apart,
-        budget=error_budget(problem, found.clean, errors, chosen, named, case.noise, found.data_error),
+        budget={name: one.parts for name, one in budget.items()},
+        detected=detected(found),
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)
 
 
-def _gaps(found: Attribution, errors: RawInputErrors, named: bool, curves: Sequence[HeldOut]) -> dict[str, ChannelGap]:
-    """Size of each channel's gap, and how far it shrinks."""
+def is_named(said: Answer) -> bool:
+    """Whether errors are told of a model with effects: what is named, or the most probable where too many remain."""
+    return bool(said.effects) or said.verdict == "unresolved"
+
+
+def budgeted(
+    found: Attribution, errors: RawInputErrors
+) -> tuple[Attribution, RawInputErrors, dict[str, ChannelBudget], Partial | None]:
+    """The answer as its budget has it, its errors, the budget, and what explains a part of a gap that stays unknown."""
+    budget = _budget(found, errors)
+    before, found = found, replace(found, answer=by_budget(found, budget, errors))
+    if found.answer.chosen is not before.answer.chosen:
+        errors = errors_of(found)
+        budget = _budget(found, errors)
+    best = partial(found) if found.answer.verdict == "unknown" else None
+    if best is None:
+        return found, errors, budget, None
+    if sure_beside(found, best[0]):
+        closer = replace(found, answer=named_in_part(found.answer, best[0]))
+        of_closer = errors_of(closer)
+        own = _budget(closer, of_closer)
+        takes, missed = totals(own, of_closer, found.problem)
+        if takes > missed:
+            return closer, of_closer, own, None
+    return found, errors, budget, best[1]
+
+
+def _budget(found: Attribution, errors: RawInputErrors) -> dict[str, ChannelBudget]:
+    said = found.answer
+    return error_budget(
+        found.problem, found.clean, errors, said.chosen.judged, is_named(said), found.stated, found.data_error
+    )
+
+
+def _gaps(
+    found: Attribution,
+    errors: RawInputErrors,
+    named: bool,
+    curves: Sequence[HeldOut],
+    budget: Mapping[str, ChannelBudget],
+) -> dict[str, ChannelGap]:
+    """Size of each channel's gap, and how far it shrinks; the floor is what the first parts of the budget make."""
     problem, chosen = found.problem, found.answer.chosen.judged
     shrunk = error_reduction_of(errors, problem, chosen, named, found.data_error)
     return {
         name: ChannelGap(
             s.rmse_before,
             s.rmse_after,
-            s.floor,
+            min(s.floor, s.rmse_before * budget[name].floor ** 0.5) if name in budget else s.floor,
             s.reduction,
             (s.low, s.high),
             s.unexplained,
@@ -244,14 +265,16 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
     return tuple(sorted(rows, key=lambda row: -row.gain))
 
 
-def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> tuple[str, ...]:
+def _remarks(
+    found: Attribution, unexplained: bool, errors: RawInputErrors, budget: Mapping[str, ChannelBudget]
+) -> tuple[str, ...]:
     """What is odd, in words; `unexplained` where nothing known explains a part of an unknown gap."""
     said = found.answer
     return (
         *(each.told for each in (*found.odd, *found.recorder)),
         *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
         *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
-        *misfit_words(found),
+        *missed_words(budget, said.verdict),
         *coarse_rates(found.problem),
         *objection(found),
         *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
@@ -259,12 +282,15 @@ def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> t
     )
 
 
-def misfit_words(found: Attribution) -> tuple[str, ...]:
-    """What is missed beyond the stated noise, where that is why nothing is named."""
-    if found.answer.verdict != "unknown":
+def missed_words(budget: Mapping[str, ChannelBudget], verdict: str) -> tuple[str, ...]:
+    """How much of a channel's squared error is surely missed, where that is why nothing, or not all, is named."""
+    if verdict not in ("unknown", "partly_explained"):
         return ()
-    most = f"up to {loudest():.1f} times is put down to noise"
-    return tuple(f"{one.words}: {most}" for one in found.misfits if one.sure)
+    found = ((name, one.missed) for name, one in budget.items() if one.missed >= WORTH_NAMING)
+    return tuple(
+        f"at least {share:.0%} of the squared error of {name} is neither noise nor variation from trial to trial"
+        for name, share in found
+    )
 
 
 def behind(found: Attribution) -> dict[str, float]:

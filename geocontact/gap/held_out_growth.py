@@ -17,7 +17,6 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, Offer, attribute
-from geocontact.gap.levels import WORTH_NAMING
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.verdict import Answer
 
@@ -34,21 +33,22 @@ def confirmed(case: GapCase, found: Attribution, at: Listener) -> tuple[Attribut
     at
         Is called in words with what is being done.
     """
-    errors = _errors(found)
+    errors = errors_of(found)
     if not grows(found, errors):
         return found, errors
     offer: Offer = _without_mistakes
     if found.data_error is not None:
         at("the data as they came")
         found = attribute(case, found.problem.system, offer, at)
-        errors = _errors(found)
+        errors = errors_of(found)
         if not grows(found, errors):
             return found, errors
     found = withdrawn(found, growth(found, errors))
-    return found, _errors(found)
+    return found, errors_of(found)
 
 
-def _errors(found: Attribution) -> RawInputErrors:
+def errors_of(found: Attribution) -> RawInputErrors:
+    """Errors of the base model and of the model that an answer rests on."""
     return raw_input_errors(found.problem, found.clean, found.answer.chosen.judged, found.data_error)
 
 
@@ -66,11 +66,11 @@ def growth(found: Attribution, errors: RawInputErrors) -> float:
 
 
 def grows(found: Attribution, errors: RawInputErrors) -> bool:
-    """Whether something is named with which the error on held-out trials is larger, by more than is worth a name.
+    """Whether something is named with which the error on held-out trials is larger, of all channels together.
 
     An effect of one channel may make that one four times as small and the others, whose floors differ, a little larger.
     """
-    return bool(found.answer.effects) and growth(found, errors) > 1.0 + WORTH_NAMING
+    return bool(found.answer.effects) and growth(found, errors) > 1.0
 
 
 def withdrawn(found: Attribution, grown: float) -> Attribution:

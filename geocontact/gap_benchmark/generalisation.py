@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from geocontact.gap_benchmark.answers import Plain, clearly_ahead, constant_answer, one_law, true_distribution
+from geocontact.gap_benchmark.importance import by_importance
 from geocontact.gap_benchmark.score import Rate, answers, score, small_set, visible
 
 LEAST = 1e-3
@@ -84,6 +85,7 @@ def figures_of(pairs: Sequence[tuple[Plain, Plain]]) -> LaboratoryFigures:
         for label, said in beside
     )
     shares["class_right"] = Rate.of(all(one & set(label["effects"]) for one in stated) for label, stated in classes)
+    shares |= by_importance(pairs)
     shares["class_elsewhere"] = Rate.of(set(answers(said)[:1]) & one_law(label) != set() for label, said in beside)
     seconds = [float(said["seconds"]) for _, said in pairs if "seconds" in said]
     numbers = {

@@ -7,7 +7,7 @@ any answer but "none". *Harm*: a named effect makes held-out predictions worse, 
 *First*: the first of `ambiguity`, else of `effects`; *set*: both together, when they are three at most; *named*:
 verdict "explained", and exactly the effect that is there. *Anew*: of effects that are visible even if all is placed
 anew in every trial as is usual (`nats_anew`).
-*Confidently wrong*: verdict "explained", a named effect that is not there, `probabilities` of the named sum to one half
+*Confidently wrong*: a named effect that is not there, `probabilities` of the named sum to one half
 or more, and the hedge is missing: `ambiguity` (three at most) does not hold the whole truth. One of two true effects
 named alone is incomplete, not wrong; a phantom beside a true one is wrong unless `ambiguity` hedges. An effect outside
 the table that a candidate reproduces (`imitated`) cannot be told from it, and naming one is not counted. Over all
@@ -187,7 +187,7 @@ def confidently_wrong(label: Plain, diagnosis: Plain) -> bool:
     """A false claim without a hedge; see the module."""
     named = set(diagnosis["effects"])
     truth = set() if label["kind"] == "outside" else set(label["effects"])
-    if diagnosis["verdict"] != "explained" or named <= truth:
+    if named <= truth:
         return False
     if label["kind"] == "outside" and label.get("imitated"):
         return False
@@ -252,7 +252,7 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
     held = [
         inside
         for a, b in of(*GAPS, "pair")
-        if b["verdict"] == "explained"
+        if b["effects"]
         for _, inside in reduction_errors(a, b)
         if inside is not None
     ]

@@ -15,22 +15,23 @@ from tests.effects.runs import DISCRETE, EXAMPLES, FITTED, OFFERED, difference, 
 from tests.systems.examples import NAMES, example, recording
 
 VOCABULARY = {
-    "elbow": "time_shift filter_lag motion_offset axis_migration series_compliance stiffening damping relaxation "
-    "dry_friction dead_zone end_stop preload slip gravity_load inertia_load sensor_gain sensor_offset sensor_drift "
-    "saturation unit_error sign_flip",
-    "foot": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation asymmetry "
-    "inertia_load sensor_gain sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
-    "shoulder": "time_shift filter_lag motion_offset axis_migration series_compliance stiffening damping relaxation "
-    "dry_friction dead_zone end_stop preload slip contact_loss event_load gravity_load inertia_load sensor_gain "
+    "elbow": "time_shift clock_slip filter_lag motion_offset play axis_migration series_compliance stiffening "
+    "damping relaxation dry_friction dead_zone end_stop preload slip gravity_load inertia_load sensor_gain "
     "sensor_offset sensor_drift saturation unit_error sign_flip",
-    "knee": "time_shift filter_lag motion_offset axis_migration relaxation asymmetry sensor_gain sensor_offset "
-    "sensor_drift saturation crosstalk unit_error sign_flip side_swap",
-    "sit_to_stand": "time_shift filter_lag motion_offset axis_migration series_compliance stiffening damping "
-    "relaxation dry_friction dead_zone end_stop preload slip contact_loss sensor_gain sensor_offset sensor_drift "
-    "saturation crosstalk unit_error sign_flip side_swap",
-    "joint": "time_shift filter_lag motion_offset series_compliance stiffening damping relaxation dry_friction "
-    "dead_zone end_stop preload slip contact_loss asymmetry gravity_load inertia_load sensor_gain sensor_offset "
-    "sensor_drift saturation unit_error sign_flip",
+    "foot": "time_shift clock_slip filter_lag motion_offset play series_compliance stiffening damping relaxation "
+    "asymmetry inertia_load sensor_gain sensor_offset sensor_drift saturation crosstalk unit_error sign_flip "
+    "side_swap",
+    "shoulder": "time_shift clock_slip filter_lag motion_offset axis_migration series_compliance stiffening "
+    "damping relaxation dry_friction dead_zone end_stop preload slip contact_loss event_load gravity_load "
+    "inertia_load sensor_gain sensor_offset sensor_drift saturation unit_error sign_flip",
+    "knee": "time_shift clock_slip filter_lag motion_offset axis_migration relaxation asymmetry sensor_gain "
+    "sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
+    "sit_to_stand": "time_shift clock_slip filter_lag motion_offset play axis_migration series_compliance "
+    "stiffening damping relaxation dry_friction dead_zone end_stop preload slip contact_loss sensor_gain "
+    "sensor_offset sensor_drift saturation crosstalk unit_error sign_flip side_swap",
+    "joint": "time_shift clock_slip filter_lag motion_offset play series_compliance stiffening damping "
+    "relaxation dry_friction dead_zone end_stop preload slip contact_loss asymmetry gravity_load inertia_load "
+    "sensor_gain sensor_offset sensor_drift saturation unit_error sign_flip",
 }
 STAGES = {"timing", "kinematics", "geometry", "constitutive", "load", "sensor", "data"}
 

@@ -66,6 +66,37 @@ def test_outputs_come_late_never_early() -> None:
     assert candidate("elbow", "time_shift").parameters[0].lower == 0.0
 
 
+def test_a_clock_slips_once_or_runs_at_another_rate() -> None:
+    """Samples of the base model read where the other clock was; a trial of the elbow has a step of 0.02 s."""
+    time = EXAMPLES["elbow"][1][0].time
+    base, late = with_and_without("elbow", "clock_slip.once", delay=0.1, when=0.5)
+    share = (time - time[0]) / (time[-1] - time[0])
+    before, after = share < 0.47, np.flatnonzero(share > 0.53)
+    np.testing.assert_array_equal(late[before], base[before])
+    np.testing.assert_allclose(late[after], base[after - 5], rtol=1e-9, atol=1e-9)
+    _, early = with_and_without("elbow", "clock_slip.once", delay=-0.1, when=0.5)
+    np.testing.assert_allclose(early[after[:-6]], base[after[:-6] + 5], rtol=1e-9, atol=1e-9)
+    _, slow = with_and_without("elbow", "clock_slip.steady", rate=0.05)
+    want = np.interp(time - 0.05 * (time - time[0]), time, base[:, 0])
+    np.testing.assert_allclose(slow[:, 0], want, atol=2e-3 * np.ptp(base))
+
+
+def test_play_is_a_loop_that_does_not_depend_on_rate() -> None:
+    """The play operator written as a loop over samples; the same path twice as fast makes the same outputs."""
+    system, trials = EXAMPLES["joint"]
+    one = candidate("joint", "play.angle").apply(system)
+    values = {**system.start, "play.angle.width": 0.1, "play.angle.start": 0.5}
+    angle, last, followed = trials[0].column("angle"), trials[0].column("angle")[0] - 0.025, []
+    for value in angle:
+        last = max(value - 0.05, min(last, value + 0.05))
+        followed.append(last)
+    bare = {**values, "b": 0.0}
+    want = system.simulate(recording("t0", trials[0].time, {"angle": np.array(followed)}, **trials[0].covariates), bare)
+    np.testing.assert_allclose(one.simulate(trials[0], bare), want, rtol=1e-9, atol=1e-9)
+    fast = recording("t0", 0.5 * trials[0].time, {"angle": angle}, **trials[0].covariates)
+    np.testing.assert_allclose(one.simulate(fast, bare), want, rtol=1e-9, atol=1e-9)
+
+
 def test_a_filter_makes_late_and_small() -> None:
     base, got = with_and_without("elbow", "filter_lag", lag=0.1, order=1.0)
     ahead = got[5:, 0] - base[:-5, 0]  # nearly the delay of 0.1 s while the force changes slowly
@@ -125,7 +156,16 @@ def test_mass_in_the_foot_is_accelerated_where_it_is() -> None:
     np.testing.assert_array_equal(got[both, 2], base[both, 2])
 
 
-SIGNED = {"motion_offset", "axis_migration", "preload", "gravity_load", "sensor_gain", "sensor_offset", "sensor_drift"}
+SIGNED = {
+    "clock_slip",
+    "motion_offset",
+    "axis_migration",
+    "preload",
+    "gravity_load",
+    "sensor_gain",
+    "sensor_offset",
+    "sensor_drift",
+}
 
 
 @pytest.mark.parametrize(("name", "one"), FITTED, ids=label)

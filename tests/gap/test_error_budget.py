@@ -5,7 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.gap.reduction.error_budget import PARTS, ErrorTrial, deviations, shares
+from geocontact.gap.reduction.error_budget import (
+    MOST_USUAL,
+    PARTS,
+    ErrorTrial,
+    beyond_noise,
+    deviations,
+    loudest,
+    share_taken,
+    shares,
+)
 
 
 def trial(before: float, after: float, cleared: float, sensor: float, inputs: float, n: int = 240) -> ErrorTrial:
@@ -44,10 +53,38 @@ def test_blocks_that_differ_make_an_interval_wide() -> None:
     assert 0.0 < high - low < 0.05
 
 
-def test_what_all_trials_deviate_by_alike_is_no_variation() -> None:
-    """Residuals of 3 and 5 usual deviations in two trials: variation is ±1, and the 4 that both have is none."""
+def test_no_noise_takes_what_repeats() -> None:
+    """Noise of 20 in an error of 4, half of which repeats: noise gets the other half, in proportion."""
+    found = shares([trial(2.0, 2.0, 2.0, 12.0, 4.0)], repeating=0.5)
+    assert found["unexplained"].share == pytest.approx(0.5)
+    assert found["sensor"].share == pytest.approx(0.375) and found["inputs"].share == pytest.approx(0.125)
+
+
+@pytest.mark.parametrize(("size", "share"), [(1.0, 0.0), (1.6, 0.0), (4.0, (16.0 - loudest() ** 2) / 16.0)])
+def test_beyond_noise_is_what_neighbours_share_above_its_largest_size(size: float, share: float) -> None:
+    """A constant error beside noise of 1; one that changes its sign from sample to sample is noise, however large."""
+    n = 4000
+    flat = np.full(n, size)
+    one = ErrorTrial(flat, flat, flat, np.ones(n), np.zeros(n))
+    assert loudest() == pytest.approx(1.2 * np.exp(0.3))
+    assert beyond_noise([one]) == pytest.approx(share, abs=1e-3)
+    assert beyond_noise([trial(size, size, size, 1.0, 0.0)]) == 0.0 and beyond_noise([]) == 0.0
+
+
+def test_a_trial_deviates_by_three_usual_deviations_at_most() -> None:
+    """Residuals of 2 and of 5 usual deviations."""
     n = 4000
     column, there = np.full((n, 1, 1), 0.5), np.ones((n, 1), bool)
-    residuals = [np.full((n, 1), 0.5 * each) for each in (3.0, 5.0)]
+    residuals = [np.full((n, 1), 0.5 * each) for each in (2.0, 5.0)]
     found = deviations(residuals, [column] * 2, [there] * 2, np.array([0.1]))
-    np.testing.assert_allclose(found[:, 0], [-1.0, 1.0], rtol=1e-3)
+    np.testing.assert_allclose(found[:, 0], [2.0, MOST_USUAL], rtol=1e-3)
+
+
+def test_what_an_effect_takes_by_hand() -> None:
+    """Squares of 100 without anything, 64 without the effect and 25 with it: 39 of 100, all blocks alike."""
+    base, lacking, having = ([np.full(160, size)] * 2 for size in (10.0, 8.0, 5.0))
+    assert share_taken(base, lacking, having) == pytest.approx((0.39, 0.39, 0.39))
+    assert share_taken([np.zeros(160)], [np.zeros(160)], [np.zeros(160)]) is None
+    growing = [np.concatenate([np.full(80, 8.0), np.full(80, 5.0)])]
+    share, low, high = share_taken([np.full(160, 10.0)], [np.full(160, 8.0)], growing) or (0.0, 0.0, 0.0)
+    assert share == pytest.approx(0.195) and 0.08 < low < share < high < 0.3

@@ -11,7 +11,7 @@ from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.whitening import sensitivity
-from geocontact.gap.reduction.error_reduction import WIDE, between, error_reduction
+from geocontact.gap.reduction.error_reduction import LONE, WIDE, between, error_reduction, relative_scatter
 from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import base_contender, singles
@@ -42,6 +42,23 @@ def test_a_wide_one_goes_on_in_proportion_without_a_jump() -> None:
     assert below == pytest.approx(above)
     low, _, high = between(2.0, 8.0)
     assert low < 0.0 and high - 2.0 == pytest.approx(2.0 * (between(2.0, 4.0)[2] - 2.0))
+
+
+def test_what_stays_widens_the_logarithm_and_takes_nothing_below_0() -> None:
+    """Of 80 ± 20 % over something known to e^±1.5: half-widths of 0.2 and 1.5 add in squares."""
+    low, middle, high = between(80.0, 16.0, 1.5)
+    assert np.log([middle / low, high / middle]) == pytest.approx([np.hypot(0.2, 1.5)] * 2)
+    below, above = between(2.0, (WIDE - 1e-9) * 2.0, 0.7), between(2.0, (WIDE + 1e-9) * 2.0, 0.7)
+    assert below == pytest.approx(above)
+    assert between(2.0, 8.0, 0.7)[0] < between(2.0, 8.0)[0] < 0.0
+
+
+def test_scatter_is_pooled_over_trials_that_are_fitted_and_held_out() -> None:
+    """1 and 3 about 2, 30 and 50 about 40: (2 × 0.5² + 2 × 0.25²)/2."""
+    seen = [(False, 1.0), (False, 3.0), (True, 30.0), (True, 50.0)]
+    assert relative_scatter(seen) == pytest.approx(0.3125)
+    assert relative_scatter([(False, 1.0), (True, 9.0)]) == pytest.approx(LONE**2)
+    assert relative_scatter([(False, 1.0), (False, 3.0), (True, 9.0)]) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("ratio", [0.0, -0.2])

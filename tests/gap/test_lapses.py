@@ -46,7 +46,8 @@ def test_what_gains_and_may_not_be_named_is_not_impossible() -> None:
     assert before.verdict == "no_gap" and before.ambiguity == ("damping",)
     assert before.probabilities.get("damping", 0.0) < 1e-3
     stated = with_lapses(before, EFFECTS).probabilities
-    assert stated["damping"] > QUESTIONED / 2.0 > SILENT
-    assert stated["none"] == pytest.approx(1.0 - QUESTIONED, abs=QUESTIONED / len(stated))
+    """The guess is shared by it and none, so that no gap stays the likeliest."""
+    assert stated["none"] > stated["damping"] > QUESTIONED / 4.0
+    assert stated["none"] == pytest.approx(1.0 - 0.75 * QUESTIONED, abs=QUESTIONED / len(stated))
     unknown = replace(before, verdict="unknown", probabilities={"unknown": 1.0})
     assert with_lapses(unknown, EFFECTS).probabilities["unknown"] > 1.0 - SILENT

@@ -36,8 +36,16 @@ def test_the_share_of_a_named_effect_holds_the_true_one(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["gap_01", "gap_02"])
-def test_what_stated_noise_is_not_is_unexplained(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "effect", "parameter", "size", "near"),
+    [
+        ("gap_01", "clock_slip", "clock_slip.once.delay", 0.09, 0.003),
+        ("gap_02", "play", "play.angle.width", 0.08, 0.003),
+    ],
+)
+def test_a_slip_and_play_are_named_at_their_size(
+    name: str, effect: str, parameter: str, size: float, near: float
+) -> None:
     """A clock that slips half-way and play: 1.66 N m and 1.09 N m of error where 0.1 N m of noise are stated."""
     case = SHARED / "cases" / name
     if not case.is_dir():
@@ -45,5 +53,6 @@ def test_what_stated_noise_is_not_is_unexplained(name: str) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
         found = gc.diagnose(case, bare=True).diagnosis
-    assert found.verdict == "unknown" and found.budget["torque"]["unexplained"].ci95[0] > 0.9
-    assert found.budget["torque"]["sensor"].share < 0.02
+    assert (found.verdict, found.effects) == ("explained", (effect,))
+    assert found.parameters[parameter].value == pytest.approx(size, abs=near)
+    assert found.budget["torque"]["effects"].share > 0.95 and found.budget["torque"]["sensor"].share < 0.02

@@ -82,7 +82,8 @@ def test_outputs_are_the_simulators() -> None:
 def test_effects_are_those_outside_of_it() -> None:
     names = {one.name for one in candidates(system_of(case()))}
     assert names == {
-        "time_shift", "filter_lag", "motion_offset", "gravity_load", "sensor_gain", "sensor_offset",
+        "time_shift", "clock_slip", "filter_lag", "motion_offset", "play", "gravity_load",
+        "sensor_gain", "sensor_offset",
         "sensor_drift", "saturation", "unit_error", "sign_flip",
     }  # fmt: skip
 

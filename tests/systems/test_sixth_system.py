@@ -54,7 +54,17 @@ def offered(system: System) -> dict[str, Candidate]:
 def test_candidates_follow_from_roles() -> None:
     found = offered(thumb())
     assert {label.partition(".")[0] for label in found} == {
-        *("time_shift", "filter_lag", "motion_offset", "series_compliance", "stiffening", "damping", "relaxation"),
+        *(
+            "time_shift",
+            "clock_slip",
+            "filter_lag",
+            "motion_offset",
+            "play",
+            "series_compliance",
+            "stiffening",
+            "damping",
+            "relaxation",
+        ),
         *("dry_friction", "dead_zone", "end_stop", "slip", "contact_loss", "gravity_load", "inertia_load"),
         *("sensor_gain", "sensor_offset", "sensor_drift", "saturation", "unit_error", "sign_flip"),
     }

@@ -3,15 +3,20 @@
     error before = effects + (error after),   error after = variation + sensor + inputs + unexplained
 
 Each part has evidence of its own. *Effects*: what the named effects, or the mistake in the data that is undone, take
-away on trials that nothing was fitted to. *Variation*: what the deviation of each trial from the mean of all takes away
-of what stays, its base parameters, placement, zeros and gains no larger than is usual; what all trials deviate by alike
-is none. *Sensor*: noise as the case states it; without a statement as it was estimated, so that its share is then an
-upper bound. *Inputs*: what noise of the inputs makes of the prediction, no louder than is usual. What stays then is
-**unexplained**: stated noise never grows to take it. Where the parts of the noise together are more than what there is,
-they share it in proportion, and nothing is unexplained.
+away on trials that nothing was fitted to. *Variation*: what the deviation of each trial takes away of what stays, its
+base parameters, placement, zeros and gains within `MOST_USUAL` times what is usual; what the calibration trials deviate
+by alike is none. *Sensor*: noise as the case states it, of a quotient as it grows with the divisor; without a statement
+as it was estimated, so that its share is then an upper bound. *Inputs*: what noise of the inputs makes of the
+prediction, no louder than is usual. What stays then is **unexplained**: stated noise never grows to take it, and no
+noise takes what repeats from trial to trial (`gap.reduction.repeats`). Where the parts of the noise together are more
+than what there is for them, they share it in proportion.
+
+A channel surely **misses** a share of its squared error where that repeats; or, where its noise is stated, where
+neighbours in time share more than `loudest` times the noise: what a model misses is smooth, while noise that grows with
+the signal, or has heavy tails, is not.
 
 Intervals are those of blocks drawn within each held-out trial (Künsch 1989, Ann Stat 17, 1217), with levels of noise
-known to the factor `SENSOR_LOUDER`. How often they hold the true shares was not counted.
+known to the factor `SENSOR_LOUDER`.
 """
 
 from __future__ import annotations
@@ -29,11 +34,41 @@ from geocontact.gap.case.whitening import SENSOR_LOUDER
 from geocontact.gap.data_errors import DataError, put_back
 from geocontact.gap.levels import DRAWS
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
+from geocontact.gap.reduction.repeats import axes_of, repeats
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.intervals.quantile_intervals import ENDS
+from geocontact.identify.noise.noise_levels import BEYOND
 
 PARTS = ("sensor", "inputs", "variation", "effects", "unexplained")
 """Parts of the squared error, in the order of tables."""
+MOST_USUAL = 3.0
+"""Usual standard deviations that a trial may deviate by: as much as fitted variation is limited to."""
+
+
+def loudest() -> float:
+    """Times the stated noise of a sensor that is put down to noise at the most: 1.62."""
+    return float(SENSOR_LOUDER * np.exp(BEYOND))
+
+
+@dataclass(frozen=True)
+class ChannelBudget:
+    """Shares of a channel's squared error on held-out trials.
+
+    Parameters
+    ----------
+    parts
+        Of `PARTS`; they add to 1.
+    missed
+        Share that is surely neither noise nor variation, nor taken by what is named.
+    """
+
+    parts: dict[str, BudgetPart]
+    missed: float
+
+    @property
+    def floor(self) -> float:
+        """Share of noise and variation together, not below 0."""
+        return max(sum(self.parts[name].share for name in ("sensor", "inputs", "variation")), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +92,19 @@ class ErrorTrial:
     inputs: Float[np.ndarray, " n"]
 
 
-def shares(trials: Sequence[ErrorTrial]) -> dict[str, BudgetPart]:
-    """Share of each of `PARTS` in the squared error before, and its 95 % interval; none where there is no error."""
+def shares(trials: Sequence[ErrorTrial], repeating: float = 0.0) -> dict[str, BudgetPart]:
+    """Share of each of `PARTS` in the squared error before, and its 95 % interval; none where there is no error.
+
+    `repeating` is the share of what stays, variation off, that no noise may take.
+    """
     blocks = [block for trial in trials for block in _blocks(trial)]
     sums = np.array([_sums(each) for each in blocks]) if blocks else np.zeros((0, len(PARTS)))
     if not len(sums) or not sums[:, 0].sum() > 0.0:
         return {}
     rng = np.random.default_rng(0)
-    middle = _split(sums.sum(axis=0))
-    drawn = np.array([_split(_drawn(sums, [len(_blocks(t)) for t in trials], rng)) for _ in range(DRAWS)])
+    middle = _split(sums.sum(axis=0), repeating)
+    counts = [len(_blocks(t)) for t in trials]
+    drawn = np.array([_split(_drawn(sums, counts, rng), repeating) for _ in range(DRAWS)])
     low, high = np.nanquantile(drawn, ENDS, axis=0)
     ends = zip(np.minimum(low, middle), np.maximum(high, middle), strict=True)
     values = zip(PARTS, middle, ends, strict=True)
@@ -95,16 +134,48 @@ def _drawn(
     return np.array([before, after, cleared, *(noise * levels**2)])
 
 
-def _split(total: Float[np.ndarray, " five"]) -> Float[np.ndarray, " five"]:
+def _split(total: Float[np.ndarray, " five"], repeating: float) -> Float[np.ndarray, " five"]:
     """Shares of `PARTS`; NaN where there is no error, which may be drawn."""
     before, after, cleared, sensor, inputs = total
     varied = float(np.clip(after - cleared, 0.0, after))
     stays = after - varied
     noise = sensor + inputs
-    if noise > stays:
-        sensor, inputs = (stays * each / noise for each in (sensor, inputs))
+    room = (1.0 - repeating) * stays
+    if noise > room:
+        sensor, inputs = (room * each / noise for each in (sensor, inputs))
     parts = np.array([sensor, inputs, varied, before - after, stays - sensor - inputs])
     return np.asarray(parts / before if before > 0.0 else np.full(len(PARTS), np.nan))
+
+
+def share_taken(
+    base: Sequence[Float[np.ndarray, " _"]],
+    lacking: Sequence[Float[np.ndarray, " _"]],
+    having: Sequence[Float[np.ndarray, " _"]],
+) -> tuple[float, float, float] | None:
+    """What the squared error of a model with an effect is less than without it, over that of the base model.
+
+    With its interval of 95 %, from blocks drawn within each trial; None where there is no error.
+    """
+    cut = [[np.array_split(part, BLOCKS) for part in parts] for parts in (base, lacking, having)]
+    sums = np.array([[float(each @ each) for trial in parts for each in trial if len(each)] for parts in cut]).T
+    if not len(sums) or not sums[:, 0].sum() > 0.0:
+        return None
+    rng, counts = np.random.default_rng(0), [sum(bool(len(each)) for each in trial) for trial in cut[0]]
+    first = np.cumsum([0, *counts[:-1]])
+    rows = np.concatenate([k + rng.integers(0, n, (DRAWS, n)) for k, n in zip(first, counts, strict=True) if n], axis=1)
+    drawn = sums[rows].sum(axis=1)
+    drawn = drawn[drawn[:, 0] > 0.0]
+    low, high = np.quantile((drawn[:, 1] - drawn[:, 2]) / drawn[:, 0], ENDS)
+    whole = sums.sum(axis=0)
+    return float((whole[1] - whole[2]) / whole[0]), float(low), float(high)
+
+
+def beyond_noise(trials: Sequence[ErrorTrial]) -> float:
+    """Share of the squared error that neighbours in time share beyond what `loudest` noise makes; 0 where none."""
+    before = sum(float(t.before @ t.before) for t in trials)
+    alike = sum(float(t.cleared[1:] @ t.cleared[:-1]) for t in trials)
+    noise = sum(float(t.sensor.sum() + t.inputs.sum()) for t in trials)
+    return max(alike - loudest() ** 2 * noise, 0.0) / before if before > 0.0 else 0.0
 
 
 def deviations(
@@ -113,9 +184,7 @@ def deviations(
     present: Sequence[Bool[np.ndarray, "_ c"]],
     floor: Float[np.ndarray, " c"],
 ) -> Float[np.ndarray, "i q"]:
-    """Most probable deviation of each trial from the mean of all, in usual standard deviations.
-
-    What all trials deviate by alike is no variation: a model that is wrong in the same way in every trial misses there.
+    """Most probable deviation of each trial, in usual standard deviations, `MOST_USUAL` at most.
 
     Parameters
     ----------
@@ -124,12 +193,14 @@ def deviations(
     floor
         Noise of each channel.
     """
+    from scipy.optimize import lsq_linear
+
     found = []
     for residual, columns, there in zip(residuals, varied, present, strict=True):
         b, r = (columns / floor[:, None])[there], (residual / floor)[there]
-        found.append(np.linalg.solve(np.eye(b.shape[1]) + b.T @ b, b.T @ r))
-    every = np.asarray(found)
-    return np.asarray(every - every.mean(axis=0))
+        root = np.linalg.cholesky(np.eye(b.shape[1]) + b.T @ b).T
+        found.append(lsq_linear(root, np.linalg.solve(root.T, b.T @ r), (-MOST_USUAL, MOST_USUAL)).x)
+    return np.asarray(found)
 
 
 def error_budget(
@@ -140,7 +211,7 @@ def error_budget(
     named: bool,
     stated: Mapping[str, float],
     data_error: DataError | None = None,
-) -> dict[str, dict[str, BudgetPart]]:
+) -> dict[str, ChannelBudget]:
     """Budget of each channel that has an error on held-out trials.
 
     Parameters
@@ -166,19 +237,37 @@ def error_budget(
         for name, each in zip(names, clean.varied(answer.model.jacobian), strict=True)
     ]
     stays = errors.after if named else errors.before
-    own_deviation = deviations(stays, varied, problem.recorded.present, problem.floor)
-    found: dict[str, list[ErrorTrial]] = {name: [] for name in outputs}
+    own = deviations(stays, varied, problem.recorded.present, problem.floor)
+    freed = [r - b @ d for r, b, d in zip(stays, varied, own, strict=True)]
+    cleared = [r - b @ d for r, b, d in zip(stays, varied, own - own[:count].mean(axis=0), strict=True)]
+    trials: dict[str, list[ErrorTrial]] = {name: [] for name in outputs}
     for i in range(count, len(problem.recorded.trials)):
-        there, after = problem.recorded.present[i], stays[i]
-        cleared = after - varied[i] @ own_deviation[i]
+        there = problem.recorded.present[i]
         estimated = noise_variance(clean.layouts[i], silent)
-        smooth = (answer.model.residuals[i] - raw[i]) ** 2
-        inputs = noise_variance(clean.layouts[i], alone) + np.where(there, smooth, 0.0)
+        smooth = np.where(there, (answer.model.residuals[i] - raw[i]) ** 2, 0.0)
+        inputs = noise_variance(clean.layouts[i], alone) + smooth
         for c, channel in enumerate(outputs):
-            own = there[:, c]
-            if own.any():
-                level = stated.get(channel)
-                sensor = estimated[own, c] if level is None else np.full(int(own.sum()), level**2)
-                parts = errors.before[i][own, c], after[own, c], cleared[own, c], sensor, inputs[own, c]
-                found[channel].append(ErrorTrial(*parts))
-    return {channel: budget for channel, trials in found.items() if (budget := shares(trials))}
+            at = there[:, c]
+            if at.any():
+                sensor = _of_sensor(estimated[at, c], stated.get(channel), channel in problem.system.quotients)
+                parts = (errors.before[i][at, c], stays[i][at, c], cleared[i][at, c], sensor, inputs[at, c])
+                trials[channel].append(ErrorTrial(*parts))
+    axes = axes_of(problem.recorded.trials, problem.system)
+    found = {}
+    for c, channel in enumerate(outputs):
+        same = repeats([r[:, c] for r in freed], [there[:, c] for there in problem.recorded.present], axes).sure
+        parts = shares(trials[channel], same)
+        if parts:
+            kept = sum(float(t.cleared @ t.cleared) for t in trials[channel])
+            repeating = same * kept / sum(float(t.before @ t.before) for t in trials[channel])
+            found[channel] = ChannelBudget(
+                parts, max(repeating, beyond_noise(trials[channel]) if channel in stated else 0.0)
+            )
+    return found
+
+
+def _of_sensor(estimated: Float[np.ndarray, " n"], stated: float | None, quotient: bool) -> Float[np.ndarray, " n"]:
+    """Variance of a sensor's noise: as stated; of a quotient no less than it is estimated to be by its divisor."""
+    if stated is None:
+        return estimated
+    return np.maximum(estimated, stated**2) if quotient else np.full(len(estimated), stated**2)

@@ -9,9 +9,10 @@ the one error beyond the other, which may be less than nothing. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
-The interval comes from the spread of g²/a²: parameters and the form of the effect, which is never exactly that of the
-candidate (from the fit), trials that differ in motion and in their deviations. What the held-out trials show is always
-inside: where what is named is not all that is missing, the best fit is not the truth, and the curves are right.
+The interval comes from the spread of log g² and of log a² over all trials, fitted ones too: parameters and the form of
+the effect, which is never exactly that of the candidate (from the fit), trials that differ in motion and in their
+deviations. What the held-out trials show is always inside: where what is named is not all that is missing, the best fit
+is not the truth, and the curves are right.
 
 Leaving a trial out needs no fit of its own: with each trial's whitened residual r_i and derivatives D_i at the common
 fit, A_i = D_iᵀ D_i and g_i = D_iᵀ r_i, one Gauss-Newton step without trial i is
@@ -23,6 +24,7 @@ S the prior spread of the parameters, and the trial's predictive density N(r_i -
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,7 +56,7 @@ def held_out(problem: Problem, errors: RawInputErrors, named: bool) -> tuple[Hel
 
 
 FORM = 0.04  # relative standard deviation of g² for the form of the effect
-LONE = 0.3  # the same between trials, where one alone was held out
+LONE = 0.3  # the same between trials, where neither side has two
 HEARD, UNHEARD = (
     2.0,
     0.05,
@@ -132,9 +134,11 @@ def error_reduction_of(
             continue
         (gone, gone_sd), (left, left_sd) = _gone(problem, errors, c), errors.left[c]
         gone += float(heard[c])
-        spread = student * float(np.hypot(gone_sd, gone / left * left_sd)) / left
         least = max(-(HEARD * abs(float(heard[c])) / left + UNHEARD), LEAST)
-        low, middle, high = (1.0 - (1.0 + max(each, least)) ** -0.5 for each in between(gone / left, spread))
+        low, middle, high = (
+            1.0 - (1.0 + max(each, least)) ** -0.5
+            for each in between(gone / left, student * gone_sd / left, student * left_sd / left)
+        )
         share = None
         if error >= TELLING * floor:
             share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
@@ -144,16 +148,21 @@ def error_reduction_of(
     return found
 
 
-def between(ratio: float, spread: float) -> tuple[float, float, float]:
+def between(ratio: float, spread: float, divisor: float = 0.0) -> tuple[float, float, float]:
     """An interval of g²/a²: of its logarithm, `spread`/`ratio` to either side, as long as that is `WIDE` at the most.
 
     What is spread wider than that may be less than nothing; its two sides go on growing in proportion, without a jump.
+    `divisor` is the half-width of the interval of log a², which is never less than nothing: it adds in squares.
     """
     relative = spread / ratio if ratio > 0.0 else np.inf
     down, up = (1.0 - np.exp(-WIDE)) / WIDE, (np.exp(WIDE) - 1.0) / WIDE
     if relative <= WIDE:
-        return ratio * float(np.exp(-relative)), ratio, ratio * float(np.exp(relative))
-    return ratio - down * spread, ratio, ratio + up * spread
+        low, high = ratio * float(np.exp(-relative)), ratio * float(np.exp(relative))
+    else:
+        low, high = ratio - down * spread, ratio + up * spread
+    own = min(relative, WIDE)
+    more = float(np.exp(np.hypot(own, divisor) - own))
+    return (low / more if low > 0.0 else low * more), ratio, high * more
 
 
 def _mean_square(residuals: list[np.ndarray], present: tuple[np.ndarray, ...], c: int) -> float:
@@ -168,12 +177,16 @@ def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, floa
     that fit's own error; an efficient fit errs independently of what others differ from it by, so the squares add.
     """
     squares, slopes, alike = [], [], []
-    for i in range(len(problem.calibration.trials), len(errors.before)):
+    count, seen = len(problem.calibration.trials), []
+    for i in range(len(errors.before)):
         there = problem.recorded.present[i][:, c]
         own = errors.derivatives[i][there, c]
         if not len(own):
             continue
         off = (errors.before[i] - errors.best[i])[there, c]
+        seen.append((i >= count, float(np.mean(off**2))))
+        if i < count:
+            continue
         squares.append(float(np.mean(off**2)))
         slopes.append(2.0 * off @ own / len(off))
         alike.append(misjudged(own, errors.known))
@@ -181,8 +194,22 @@ def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, floa
         return 0.0, 0.0
     slope, more = np.mean(slopes, axis=0), float(np.mean(alike))
     gone = float(np.mean(squares)) + more
-    scatter = float(np.var(squares, ddof=1)) / len(squares) if len(squares) > 1 else (LONE * gone) ** 2
+    scatter = gone**2 * relative_scatter(seen) / len(squares)
     return gone, float(np.sqrt(slope @ errors.known @ slope + scatter + (FORM * gone) ** 2 + more**2))
+
+
+def relative_scatter(seen: Sequence[tuple[bool, float]]) -> float:
+    """Variance of numbers over the square of their mean, of those that are held out and of the others, pooled.
+
+    The two sides may move differently, so each has a mean of its own; `LONE` squared where neither has two numbers.
+    """
+    total, freedom = 0.0, 0
+    for side in (False, True):
+        own = np.array([value for held, value in seen if held == side])
+        if len(own) > 1 and own.mean() > 0.0:
+            total += float(((own / own.mean() - 1.0) ** 2).sum())
+            freedom += len(own) - 1
+    return total / freedom if freedom else LONE**2
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ The evidence takes the models, the noise and the rules as given. Where one of th
 so, and an effect that is too small to be seen leaves no evidence at all. Both happen at a rate that is counted, not
 computed, on cases whose truth is known: the lapse rate of an observer (Wichmann & Hill 2001, Perception &
 Psychophysics 63: 1293-1313). What is stated is (1 - rate) of what was computed and `rate` of a guess: one half in equal
-parts to the effects in question, or to all where none is, the other half in equal parts to every answer there is. The
-verdict, its effects and their order stay as they are.
+parts to the effects in question, and to none of them where the verdict is no gap, or to all where none is in question,
+the other half in equal parts to every answer there is. The verdict, its effects and their order stay as they are.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import numpy as np
 from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
 from geocontact.gap.selection.model_comparison import Contender
 
-Verdict = Literal["explained", "no_gap", "unknown", "unresolved"]
+Verdict = Literal["explained", "partly_explained", "no_gap", "unknown", "unresolved"]
 
 BEYOND = 0.3  # part of what a gain exceeds that by that counts
 MOST = 4  # candidates still in question beyond which nothing is named
@@ -255,7 +255,7 @@ def with_lapses(said: Answer, offered: Iterable[str]) -> Answer:
     questioned = said.verdict == "no_gap" and bool(said.ambiguity)
     rate = NAMED if said.effects else QUESTIONED if questioned else SILENT
     every = dict.fromkeys(["none", "unknown", *offered, *said.probabilities])
-    likely = said.ambiguity or tuple(every)
+    likely = (("none", *said.ambiguity) if questioned else said.ambiguity) or tuple(every)
     blind = {name: 0.5 / len(every) + (0.5 / len(likely) if name in likely else 0.0) for name in every}
     stated = {name: (1.0 - rate) * said.probabilities.get(name, 0.0) + rate * blind[name] for name in every}
     return replace(said, probabilities=dict(sorted(stated.items(), key=lambda each: -each[1])))

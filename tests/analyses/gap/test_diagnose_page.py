@@ -14,14 +14,15 @@ from geocontact.analyses.frame.pages import Drawings, finished
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.gap.case import percent
 from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states, untried_law, verdict_sentences
-from geocontact.analyses.gap.diagnose.curves import gap_figures
+from geocontact.analyses.gap.diagnose.curves import budget_bars, gap_figures
 from geocontact.analyses.gap.diagnose.show import gap_page, reading
 from geocontact.analyses.gap.nats import ahead_words, odds_words
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Ranked, Where
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell
-from geocontact.gap.diagnose import Findings, behind, partial
+from geocontact.gap.budget_verdict import partial
+from geocontact.gap.diagnose import Findings, behind
 from geocontact.view.curves.sheet import number
 from geocontact.view.page.content import Curves, Intervals, Page, Picture, Strips, Table, Words
 from geocontact.view.page.write import page_html
@@ -86,6 +87,7 @@ def test_measured_and_simulated_come_before_the_diagnosis(page: Page) -> None:
     """On the first screen; where, how far and how sure after that, then what else there is of the trials."""
     assert page.leads == range(1) and kinds(page) == [
         "force, held-out trial t03",
+        "What the error consists of",
         "How far the error shrinks on held-out trials",
         "How sure that is",
         "Where the gap of force is",
@@ -98,8 +100,30 @@ def test_measured_and_simulated_come_before_the_diagnosis(page: Page) -> None:
     assert html.index("force, held-out trial t03") < verdict and lead < html.index("How sure that is") < verdict
 
 
-def test_nothing_of_an_elbow_is_a_picture(page: Page) -> None:
-    assert not any(isinstance(s, Picture) for s in page.sections) and "<img" not in page_html(page)
+def test_the_budget_opens_the_page_in_words_and_stands_below_the_curves(told: Told, page: Page) -> None:
+    """Sizes in words are roots of shares of the squared error; it is the only picture of an elbow."""
+    (picture,) = [s for s in page.sections if isinstance(s, Picture)]
+    assert picture.title == "What the error consists of" and picture.svg.startswith(b"<?xml")
+    d = told[1].diagnosis
+    parts, before = d.budget["force"], d.gap["force"].rmse_before
+    size = number(before * parts["effects"].share ** 0.5)
+    for words in (page.headline[-1], picture.words):
+        assert f"of {number(before)} N, " in words and f"{size} N what is named" in words
+    assert d.gap["force"].noise_floor <= before * sum(parts[p].share for p in ("sensor", "inputs", "variation")) ** 0.5
+
+
+def test_bars_of_the_budget_are_its_shares(told: Told) -> None:
+    """Before all of them, after those that stay."""
+    before, after = budget_bars(told[1])
+    shares = {name: part.share for name, part in told[1].diagnosis.budget["force"].items()}
+    assert before.parts == shares and before.label == "force, base model" and after.label == "force, with damping"
+    assert sum(after.parts.values()) == pytest.approx(1.0 - shares["effects"])
+    axes = gap_figures(told[1])["budget"].axes[0]
+    drawn = {round(bar.get_y() + 0.35): 0.0 for bar in axes.patches}
+    for bar in axes.patches:
+        drawn[round(bar.get_y() + 0.35)] += bar.get_width()
+    assert drawn[0] == pytest.approx(100.0 * sum(max(s, 0.0) for s in shares.values()))
+    assert drawn[1] < drawn[0]
 
 
 def test_the_map_holds_every_cell_with_its_sign(told: Told, page: Page) -> None:
@@ -294,14 +318,16 @@ def test_axes_have_units(told: Told) -> None:
 def test_what_an_effect_explains_is_told_unless_a_rule_speaks_against_it(told: Told) -> None:
     """Were this gap called unknown: the part that is stated of the effect that is named."""
     found, gap = told[1].attribution, told[1].diagnosis.gap["force"]
-    part = partial(found)
-    assert part is not None and part.effects == ("damping",) and part.gain_nats > 100.0
+    best = partial(found)
+    assert best is not None and best[0].names == ("damping",)
+    part = best[1]
+    assert part.effects == ("damping",) and part.gain_nats > 100.0
     assert part.removed["force"] == (pytest.approx(gap.reduction), pytest.approx(gap.ci95))
     assert part.as_dict()["removed"]["force"]["reduction"] == pytest.approx(gap.reduction)
-    second = partial(
-        replace(found, objections={one.label: "why" for one in found.contenders if "damping" in one.names})
-    )
-    assert second is not None and "damping" not in second.effects and second.gain_nats < part.gain_nats
+    other = partial(replace(found, objections={one.label: "why" for one in found.contenders if "damping" in one.names}))
+    assert other is not None
+    second = other[1]
+    assert "damping" not in second.effects and second.gain_nats < part.gain_nats
     assert partial(replace(found, objections={one.label: "why" for one in found.contenders})) is None
     assert partial(replace(found, contenders=())) is None
 
@@ -317,7 +343,7 @@ def test_a_mistake_in_the_data_is_no_part_of_a_gap_nor_is_what_takes_little(
     wrong = replace(damped, candidates=(replace(candidate, somewhere=lambda trials: candidate.link),))
     assert partial(replace(found, contenders=(wrong,))) is None
     shrunk = {"force": SimpleNamespace(reduction=0.05, low=-0.6, high=0.6)}
-    monkeypatch.setattr("geocontact.gap.diagnose.error_reduction", lambda *_: shrunk)
+    monkeypatch.setattr("geocontact.gap.budget_verdict.error_reduction", lambda *_: shrunk)
     assert partial(alone) is None
 
 
@@ -376,14 +402,17 @@ def test_a_wide_interval_of_few_trials_says_to_record_more() -> None:
     def of(trials: int, low: float) -> list[str]:
         return said(gap={"force": ChannelGap(3.85, 0.2, 0.2, 0.86, (low, 0.95), 0.02, "N m", trials)})[:2]
 
-    first, second = of(2, -0.03)
+    first, second = of(2, 0.37)
     assert "on the 2 held-out trials adding it removes 95 % of the error (3.85 → 0.20 N m, noise floor 0.20)" in first
     assert second == (
-        "on a new trial: 86 % expected, 95 % interval −3 to 95 %; the interval is wide because there are 2 held-out "
+        "on a new trial: 86 % expected, 95 % interval 37 to 95 %; the interval is wide because there are 2 held-out "
         "trials: record more"
     )
-    assert of(1, -0.03)[1].endswith("because there is 1 held-out trial: record more")
-    assert of(5, -0.03)[1].endswith("−3 to 95 %") and of(2, 0.8)[1].endswith("80 to 95 %")
+    assert of(1, 0.37)[1].endswith("because there is 1 held-out trial: record more")
+    assert of(5, 0.37)[1].endswith("37 to 95 %") and of(2, 0.8)[1].endswith("80 to 95 %")
+    shows = "not show how far the error shrinks: record more"
+    assert of(2, -0.03)[1] == f"on a new trial: 2 held-out trials do {shows}"
+    assert of(1, -0.03)[1] == f"on a new trial: 1 held-out trial does {shows}"
 
 
 def test_what_is_not_ruled_out_is_said_with_how_far_it_is_behind() -> None:

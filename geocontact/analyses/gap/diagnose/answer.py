@@ -24,13 +24,27 @@ SIGNIFICANT = 0.05  # family-wise
 TELLING = 0.35  # share of a channel's gap along one axis that a part of its range must hold to be named
 MISTAKES = ("unit_error", "sign_flip", "side_swap")  # of the data; nothing that a model could lack
 FEW = 4  # cells that are named one by one
-VERDICTS = {"explained": "explained", "no_gap": "no gap", "unknown": "unknown", "unresolved": "unresolved"}
+VERDICTS = {
+    "explained": "explained",
+    "partly_explained": "explained in part",
+    "no_gap": "no gap",
+    "unknown": "unknown",
+    "unresolved": "unresolved",
+}
+PART_WORDS = {
+    "sensor": "noise of the sensor",
+    "inputs": "noise of the inputs",
+    "variation": "variation from trial to trial",
+    "effects": "what is named",
+    "unexplained": "unexplained",
+}
 MOST = 0.1  # share of the whole gap from which a further channel is mentioned
 
 
 def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     """The verdict first, then what limits it; one sentence each, without a full stop."""
-    found = {"explained": _explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
+    explained = {"explained": _explained, "partly_explained": _explained}
+    found = {**explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
     then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
     return [*found(d, cells), *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
 
@@ -93,7 +107,9 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     doing = " and ".join([*["adding"] * bool(lacking), *["undoing"] * bool(mistakes)])
     parts.append(f"{held_out_words(d.gap[main])} {doing} {it} removes {removed_words(gaps)}")
     rest = d.gap[main].unexplained
-    if rest is not None:
+    if d.verdict == "partly_explained":
+        parts.append("something else remains that is not named")
+    elif rest is not None:
         parts.append(f"{percent(rest)} % stays unexplained")
     return ["; ".join(parts), f"on a new trial: {expected_words(gaps)}", *in_question(d), *_absorbed(d)]
 
@@ -187,9 +203,12 @@ def _faults(d: Diagnosis) -> list[str]:
 def facts_of(findings: Findings) -> list[tuple[str, str]]:
     """What is missing, where, how far, how sure."""
     d = findings.diagnosis
-    answer = {"explained": with_classes(d, d.effects), "no_gap": "nothing beyond noise"}.get(
-        d.verdict, VERDICTS[d.verdict]
-    )
+    named = with_classes(d, d.effects)
+    answer = {
+        "explained": named,
+        "partly_explained": f"{named}, and something else",
+        "no_gap": "nothing beyond noise",
+    }.get(d.verdict, VERDICTS[d.verdict])
     lines = [("What is missing", answer)]
     if d.where:
         lines.append(("Where", place(d.where[0], findings.cells)))

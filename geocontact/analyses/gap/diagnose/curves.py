@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.gap.diagnose.answer import axis_units
+from geocontact.analyses.gap.case import percent
+from geocontact.analyses.gap.diagnose.answer import PART_WORDS, axis_units
 from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.data.diagnosis import HeldOut
 from geocontact.data.motion import Course
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.levels import WORTH_NAMING
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade, stroke
 from geocontact.view.curves.diagnosis_answers import ranking_figure, reductions_figure
 from geocontact.view.curves.drawn import drawn
+from geocontact.view.curves.error_budget import BudgetBar, error_budget_figure
 from geocontact.view.curves.gap_map import gap_map_figure, gap_surface_figure
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.sheet import number
@@ -100,7 +103,7 @@ def _curve(
 
 
 def gap_figures(findings: Findings) -> dict[str, Figure]:
-    """Map, errors, ranking, residuals, cells of each mat, and curves of each channel."""
+    """Budget, map, errors, ranking, residuals, cells of each mat, and curves of each channel."""
     d, trials = findings.diagnosis, findings.held_out[:SIDE_BY_SIDE]
     channels = findings.attribution.problem.system.outputs
     effect = effect_words(findings) if any(t.named is not None for t in findings.held_out) else ""
@@ -110,6 +113,7 @@ def gap_figures(findings: Findings) -> dict[str, Figure]:
         "ranking": ranking_figure(findings.ranking),
         "gap_residuals": _sheet([residual_panel(findings, name, trial) for name in channels for trial in trials]),
     }
+    found |= {"budget": error_budget_figure(budget_bars(findings), PART_WORDS)} if d.budget else {}
     found |= {
         name: gap_surface_figure(one) for name, one in zip(surface_names(findings), findings.surface, strict=True)
     }
@@ -117,6 +121,38 @@ def gap_figures(findings: Findings) -> dict[str, Figure]:
         panels = [trial_panel(findings, name, trial) for trial in trials]
         found[f"before_after_{_file_name(name, c)}"] = _sheet(panels)
     return found
+
+
+def budget_bars(findings: Findings) -> list[BudgetBar]:
+    """A bar for each channel before, and one after where something is named."""
+    d, bars = findings.diagnosis, []
+    named = any(t.named is not None for t in findings.held_out)
+    for name, parts in d.budget.items():
+        quantity, gap = quantity_of(findings, name), d.gap[name]
+        shares = {part: each.share for part, each in parts.items()}
+        rows = [(f"{name}, base model", shares, gap.rmse_before)]
+        if named:
+            rows.append((f"{name}, with {effect_words(findings)}", shares | {"effects": 0.0}, gap.rmse_after))
+        bars += [BudgetBar(label, own, _printed(quantity, size)) for label, own, size in rows]
+    return bars
+
+
+def budget_words(findings: Findings) -> list[str]:
+    """What the error of each channel consists of, as root mean squares, and where the unexplained is."""
+    said, where = [], {w.channel: w.phase for w in findings.diagnosis.where}
+    for name, parts in findings.diagnosis.budget.items():
+        quantity, before = quantity_of(findings, name), findings.diagnosis.gap[name].rmse_before
+        sizes = {part: before * float(np.sqrt(max(each.share, 0.0))) for part, each in parts.items()}
+        shown = [f"{_printed(quantity, size)} {PART_WORDS[part]}" for part, size in sizes.items() if size > 0.0]
+        place = ""
+        if name in where and parts["unexplained"].share >= WORTH_NAMING:
+            place = f", most of it in {percent(where[name][0])} to {percent(where[name][1])} % of each trial"
+        said.append(f"{name}: of {_printed(quantity, before)}, {', '.join(shown)}{place}")
+    return said
+
+
+def _printed(quantity: Quantity, size: float) -> str:
+    return f"{number(float(quantity.shown(np.array(size))))} {quantity.unit}".strip()
 
 
 def _sheet(panels: Sequence[Curves]) -> Figure:

@@ -9,10 +9,11 @@ import numpy as np
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.gap.case import names, percent
-from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, in_question, verdict_sentences
+from geocontact.analyses.gap.diagnose.answer import PART_WORDS, axis_units, facts_of, in_question, verdict_sentences
 from geocontact.analyses.gap.diagnose.curves import (
     FRAMES,
     OVER,
+    budget_words,
     quantity_of,
     readout,
     residual_panel,
@@ -70,6 +71,10 @@ PROBABILITY = (
     "p is the probability of an answer, from 0 to 1: each effect that was tried, none of them, or anything unknown. It "
     "takes into account how often such answers were wrong on cases whose truth was known."
 )
+BUDGET = (
+    "Sizes are root mean squares on held-out trials, whose squares add; bars are shares of the squared error. "
+    "Variation is what base parameters, placement, zeros and gains differ by from trial to trial, as far as is usual."
+)
 P_VALUE = (
     "A p-value is something else: how often chance alone would give a gap as clear as this one. It is small where "
     "there surely is a gap."
@@ -94,15 +99,6 @@ def gap_table(findings: Findings) -> Table:
     return Table("How far the gap shrinks, held-out trials (root mean squares)", GAP_HEADER, rows)
 
 
-PART_WORDS = {
-    "sensor": "noise of the sensor",
-    "inputs": "noise of the inputs",
-    "variation": "variation from trial to trial",
-    "effects": "what is named",
-    "unexplained": "unexplained",
-}
-
-
 def budget_shares(findings: Findings) -> Table:
     """What the squared error of the base model on held-out trials consists of, channel by channel."""
     d = findings.diagnosis
@@ -117,19 +113,12 @@ def budget_shares(findings: Findings) -> Table:
     return Table("What the squared error consists of, held-out trials [95 % interval]", header, rows)
 
 
-def budget_words(findings: Findings) -> list[str]:
-    """The same as root mean squares, in a sentence for each channel."""
-    said = []
-    for name, parts in findings.diagnosis.budget.items():
-        quantity, before = quantity_of(findings, name), findings.diagnosis.gap[name].rmse_before
-        sizes = {
-            part: float(quantity.shown(np.array(before * np.sqrt(max(each.share, 0.0)))))
-            for part, each in parts.items()
-        }
-        each = ", ".join(f"{number(size)} {PART_WORDS[part]}" for part, size in sizes.items() if size > 0.0)
-        whole = number(float(quantity.shown(np.array(before))))
-        said.append(f"{name}: of {whole} {quantity.unit}, {each} (root mean squares; their squares add)")
-    return said
+def budget_picture(findings: Findings, drawings: Mapping[str, bytes]) -> list[Picture]:
+    """The budget as bars before and after, and in words; nothing where no channel has an error."""
+    if not findings.diagnosis.budget:
+        return []
+    words = " ".join(_sentence(line) for line in budget_words(findings))
+    return [Picture("What the error consists of", f"{words} {BUDGET}", drawings["budget"], wide=True)]
 
 
 def ranking_table(findings: Findings) -> Table:
@@ -196,13 +185,16 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     first, further = _panels(findings)
     missing = max(len(findings.held_out) * len(d.gap) - PANELS, 0)
     sentences = verdict_sentences(d, findings.cells)
-    sections: list[Section] = [*first, reduction_bars(findings), ranking_bars(findings), map_strips(findings)]
+    sections: list[Section] = [
+        *first,
+        *budget_picture(findings, drawings),
+        reduction_bars(findings),
+        ranking_bars(findings),
+        map_strips(findings),
+    ]
     sections += [*further, readout(findings)]
     sections += [Words("What was injected", [_sentence(line) for line in injected])] if injected else []
     sections += [Words("Verdict", [_sentence(line) for line in sentences])]
-    sections += (
-        [Words("What the error consists of", [f"{line}." for line in budget_words(findings)])] if d.budget else []
-    )
     sections += [Words("How to read these numbers", reading(d))]
     surfaces = [drawings[name] for name in surface_names(findings)]
     sections += [Picture("Where on the surface", SURFACE_WORDS, each, wide=True) for each in surfaces]
@@ -216,12 +208,21 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
         subtitle=_subtitle(case, d),
         time=OVER.values,
         time_label=OVER.label,
-        headline=headline([*injected[1:], *sentences], most=(2 if d.verdict == "explained" else 1) + len(injected[1:])),
+        headline=_headline(findings, sentences, injected),
         facts=facts_of(findings),
         start_frame=round(0.5 * sum(window) * (FRAMES - 1)),
         sections=tuple(sections),
         plays=False,
     )
+
+
+def _headline(findings: Findings, sentences: Sequence[str], injected: Sequence[str]) -> tuple[str, ...]:
+    """The verdict, what is expected of a new trial, and the budget of the channel with most of the gap."""
+    d = findings.diagnosis
+    main = d.where[0].channel if d.where else next(iter(d.gap))
+    first = [*injected[1:], *sentences[: 2 if d.effects else 1]]
+    budget = [line for line in budget_words(findings) if line.startswith(f"{main}:")]
+    return headline([*first, *budget], most=len(first) + 1)
 
 
 def _sentence(words: str) -> str:

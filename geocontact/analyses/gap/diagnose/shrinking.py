@@ -14,6 +14,7 @@ from geocontact.view.curves.sheet import number
 PRINTED = {"N m": ("N m", 1.0), "N": ("N", 1.0), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
 FEW_TRIALS = 2  # held out, that may leave an interval wide
 BROAD = 0.3  # width of an interval of a reduction from which the few trials are named as its cause
+SILENT = 0.6  # from which an interval shows nothing of how far, and is not printed
 
 
 def printed(unit: str) -> tuple[str, float]:
@@ -60,12 +61,22 @@ def removed_words(gaps: Mapping[str, ChannelGap]) -> str:
 
 
 def expected_words(gaps: Mapping[str, ChannelGap]) -> str:
-    """What is expected of a new trial, channel by channel; why an interval is wide where few trials are the cause."""
+    """What is expected of a new trial, channel by channel; why an interval is wide where few trials are the cause.
+
+    An interval wider than `SILENT` is not printed: diagnosis.json has it.
+    """
     parts: list[str] = []
     for name, gap in gaps.items():
         of = f" for {name}" if len(gaps) > 1 else ""
-        parts.append(f"{percent(gap.reduction)} % expected{of}, 95 % interval {interval(gap.ci95)}")
-    wide = [gap for gap in gaps.values() if gap.ci95[1] - gap.ci95[0] > BROAD and 0 < gap.trials <= FEW_TRIALS]
+        if gap.ci95[1] - gap.ci95[0] > SILENT:
+            many = counted(gap.trials, "held-out trial") if gap.trials else "the held-out trials"
+            parts.append(
+                f"{many} {'does' if gap.trials == 1 else 'do'} not show how far the error shrinks{of}: record more"
+            )
+        else:
+            parts.append(f"{percent(gap.reduction)} % expected{of}, 95 % interval {interval(gap.ci95)}")
+    widths = {name: gap.ci95[1] - gap.ci95[0] for name, gap in gaps.items()}
+    wide = [g for name, g in gaps.items() if BROAD < widths[name] <= SILENT and 0 < g.trials <= FEW_TRIALS]
     if wide:
         count = min(gap.trials for gap in wide)
         there = f"{'is' if count == 1 else 'are'} {counted(count, 'held-out trial')}"

@@ -1,0 +1,181 @@
+"""The verdict follows from the budget of the squared error on held-out trials (`gap.reduction.error_budget`).
+
+Evidence says which effect, the budget whether there is anything to explain and how much of it is explained. With the
+shares of all channels in units of their floors:
+
+    explained          stays so where what is surely missed beside it is at most `LEFT_OVER` of both together
+    partly_explained   an effect is sure, and more than that is surely missed beside it
+    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, and nothing is sure
+    no_gap             what is unexplained is less than that in every channel, as stated noise has it
+
+What is named and surely takes less than `WORTH_NAMING` of every channel is not named: it is
+detected (`gap.detected`). Something *surely missed* repeats from trial to
+trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides.
+
+An effect beside which something remains is *sure* where no rule speaks against it, its gain is `SURE` beyond that of
+every other effect by the tolerance that forms have, it takes more than what is missed then, and all trials have it to
+the same amplitude: one whose law depends on the rate, as what is missed does not, has more of it in fast trials than in
+slow ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import chi2
+
+from geocontact.data.diagnosis import Partial
+from geocontact.gap.attribute import Attribution
+from geocontact.gap.case.change_amplitude import block_edges
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
+from geocontact.gap.reduction.error_budget import ChannelBudget
+from geocontact.gap.reduction.error_reduction import error_reduction
+from geocontact.gap.reduction.raw_input_errors import RawInputErrors
+from geocontact.gap.selection.held_out_rules import TrialWeight, changes
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.verdict import Answer
+
+Budget = Mapping[str, ChannelBudget]
+ODD = 0.999
+"""Probability of less scatter of an amplitude between trials than makes it another effect."""
+
+
+def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float]:
+    """What is named takes, and what is surely missed beside it, of all channels in squares of their floors."""
+    count, takes, missed = len(problem.calibration.trials), 0.0, 0.0
+    for c, name in enumerate(problem.system.outputs):
+        if name in budget:
+            size = sum(float((part[:, c] ** 2).sum()) for part in errors.before[count:]) / float(problem.floor[c]) ** 2
+            takes += size * budget[name].parts["effects"].share
+            missed += size * budget[name].missed
+    return takes, missed
+
+
+def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Answer:
+    """The answer as the budget of its own model has it; see the module."""
+    said = found.answer
+    sure = any(one.missed >= WORTH_NAMING for one in budget.values())
+    if said.effects and found.data_error is None and takes_little(budget):
+        return _unnamed(found, sure)
+    if said.effects:
+        takes, missed = totals(budget, errors, found.problem)
+        much = sure and missed > LEFT_OVER * (takes + missed)
+        return replace(said, verdict="partly_explained") if much else said
+    if said.verdict == "no_gap" and sure:
+        return _moved(said, "none", "unknown", "unknown")
+    if said.verdict == "unknown" and not sure and closed(found, budget):
+        return _moved(said, "unknown", "none", "no_gap")
+    return said
+
+
+def takes_little(budget: Budget) -> bool:
+    """Whether what is named surely takes less than `WORTH_NAMING` of the squared error of every channel."""
+    return all(one.parts["effects"].ci95[1] < WORTH_NAMING for one in budget.values())
+
+
+def _unnamed(found: Attribution, sure: bool) -> Answer:
+    """Nothing named: no gap, or unknown where something is surely missed; it has the effects' probability."""
+    said, instead = found.answer, "unknown" if sure else "none"
+    moved = sum(said.probabilities.get(name, 0.0) for name in said.effects)
+    odds = {**said.probabilities, **dict.fromkeys(said.effects, 0.0)}
+    odds[instead] = odds.get(instead, 0.0) + moved
+    odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
+    return Answer("unknown" if sure else "no_gap", (), odds, said.ambiguity, found.base)
+
+
+def closed(found: Attribution, budget: Budget) -> bool:
+    """Whether stated noise of every channel, and what trials vary by, leave next to nothing of its squared error."""
+    return set(budget) <= set(found.stated) and all(
+        one.parts["unexplained"].share < WORTH_NAMING for one in budget.values()
+    )
+
+
+def _moved(said: Answer, source: str, target: str, verdict: str) -> Answer:
+    """Another verdict, with the probability of what it was."""
+    odds = {**said.probabilities, source: 0.0}
+    odds[target] = odds.get(target, 0.0) + said.probabilities.get(source, 0.0)
+    odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
+    return replace(said, verdict=verdict, probabilities=odds)  # type: ignore[arg-type]
+
+
+def partial(found: Attribution) -> tuple[Contender, Partial] | None:
+    """What the effect that gains most explains of a gap that is not all explained by it; two, where a second one adds
+    as much as it must to be named.
+
+    Not one that a rule speaks against, nor one whose amplitude is on the bound of what is physical, nor a mistake in
+    the data, which is there or not but is no part of a gap. None where nobody gains more than luck may, and where no
+    channel loses `WORTH_NAMING` of its squared error on held-out trials, what an effect must take to be named.
+    """
+    able = [one for one in found.contenders if not one.cut_short and not one.mistaken]
+    free = [one for one in able if one.label not in found.objections]
+    alone = max((one for one in free if len(one.names) == 1), key=lambda one: one.nats, default=found.base)
+    both = max(free, key=lambda one: one.nats, default=found.base)
+    needed = SURE + WORTH_NAMING * max(alone.nats - found.base.nats, 0.0)
+    best = both if both.nats - alone.nats > needed else alone
+    gain = best.nats - found.base.nats
+    if gain < SURE:
+        return None
+    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
+    if all(1.0 - (1.0 - s.reduction) ** 2 < WORTH_NAMING for s in shrunk.values()):
+        return None
+    return best, Partial(best.names, gain, {name: (s.reduction, (s.low, s.high)) for name, s in shrunk.items()})
+
+
+def sure_beside(found: Attribution, one: Contender) -> bool:
+    """Whether a model is the only one of its kind, and all trials have its effects to the same amplitude."""
+    gain = one.nats - found.base.nats
+    others = [each.nats for each in found.contenders if not set(each.names) & set(one.names)]
+    ahead = one.nats - max([found.base.nats, *others])
+    return ahead > SURE * (1.0 + SLIGHT * gain) and steady(found, one)
+
+
+def named_in_part(said: Answer, one: Contender) -> Answer:
+    """Partly explained by a model: its effects share half of what was stated of anything unknown."""
+    half = 0.5 * said.probabilities.get("unknown", 0.0)
+    odds = {**said.probabilities, "unknown": half}
+    for name in one.names:
+        odds[name] = odds.get(name, 0.0) + half / len(one.names)
+    odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
+    return Answer("partly_explained", one.names, odds, one.names, one)
+
+
+def steady(found: Attribution, one: Contender) -> bool:
+    """Whether the amplitude of what a model changes does not differ between trials, beyond `LEFT_OVER` of it and
+    beyond chance.
+    """
+    problem, base = found.clean, found.base
+    change = changes(problem, base, one)
+    varied = problem.varied(base.judged.model.jacobian)
+    sizes, errors = [], []
+    rows = zip(one.judged.model.residuals, change, varied, problem.recorded.present, strict=True)
+    for residual, moved, spread, there in rows:
+        weight = TrialWeight.of(there, problem.floor, spread * base.judged.noise.varies)
+        rest, own = weight(residual), weight(moved)
+        power = float((own**2).sum())
+        if power > 0.0:
+            off, error = amplitude_left(rest, own, power)
+            sizes.append(off)
+            errors.append(error)
+    return not differ(sizes, errors)
+
+
+def amplitude_left(rest: np.ndarray, own: np.ndarray, power: float) -> tuple[float, float]:
+    """How much more of a change a trial has than a model gives it, as a share, and its standard error by blocks."""
+    work = (rest * own).sum(axis=1)
+    off = float(work.sum()) / power
+    left = np.add.reduceat(work - off * (own**2).sum(axis=1), block_edges(len(own)))
+    alone = float(((own * (rest - off * own)).sum(axis=1) ** 2).sum())
+    return off, float(np.sqrt(max(float(left @ left), alone))) / power
+
+
+def differ(sizes: Sequence[float], errors: Sequence[float]) -> bool:
+    """Whether amplitudes differ by more than `LEFT_OVER` of them and by more than their errors make (Cochran 1954)."""
+    if len(sizes) < 2:
+        return False
+    a, weights = np.asarray(sizes), 1.0 / np.maximum(np.asarray(errors), 1e-12) ** 2
+    middle = float((weights * a).sum() / weights.sum())
+    scatter = float((weights * (a - middle) ** 2).sum())
+    return bool(np.std(a, ddof=1) > LEFT_OVER and scatter > chi2.ppf(ODD, len(a) - 1))

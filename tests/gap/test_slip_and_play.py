@@ -1,0 +1,87 @@
+"""A clock that slips half-way, and play, are named at their size; synthetic data of an elastic joint."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from geocontact.data.gap_case import GapCase
+from geocontact.data.motion import Signals
+from geocontact.data.parameter import Parameter
+from geocontact.data.trial import Trial
+from geocontact.gap.diagnose import diagnose
+from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
+
+Column = np.ndarray
+Torque = Callable[[Column, Column], Column]
+
+
+def joint_case(torque: Torque) -> GapCase:
+    """An elastic joint whose torque has 0.1 N m of noise, which is stated; `torque` of time and angle."""
+    rng, time, trials = np.random.default_rng(5), 0.02 * np.arange(150), []
+    for k in range(5):
+        rate = 0.8 + 0.25 * k
+        angle = 0.25 * np.sin(2.0 * np.pi * rate * time + k) + 0.1 * np.sin(2.0 * np.pi * 0.37 * rate * time)
+        read = torque(time, angle) + 0.1 * rng.standard_normal(len(time))
+        trials.append(
+            Trial(f"t{k}", Signals(time, np.column_stack([angle, read]), ("angle", "torque"), ("rad", "N m")), {})
+        )
+    parameters = (Parameter("k", "N m/rad", 20.0, 5.0, 80.0), Parameter("angle0", "rad", 0.0, -0.3, 0.3))
+    joint = "geocontact.systems.elastic_joint:JOINT"
+    return GapCase("case", joint, tuple(trials[:3]), tuple(trials[3:]), parameters, noise={"torque": 0.1})
+
+
+def late(time: Column, angle: Column) -> Column:
+    """The torque comes 90 ms late from half-time on, as where frames were lost."""
+    return 31.0 * (np.where(time < 0.5 * time[-1], angle, np.interp(time - 0.09, time, angle)) - 0.05)
+
+
+def play(_: Column, angle: Column) -> Column:
+    """The spring follows the angle with a play of 0.08 rad, whatever its rate."""
+    follows = [angle[0]]
+    for each in angle[1:]:
+        follows.append(min(max(follows[-1], each - 0.04), each + 0.04))
+    return 31.0 * (np.array(follows) - 0.05)
+
+
+def wander(time: Column, angle: Column) -> Column:
+    """A spring, and 1.2 N m that every trial has alike at the same share of its time: no row of the vocabulary."""
+    share = time / time[-1]
+    bumps = np.exp(-0.5 * ((share - 0.3) / 0.05) ** 2) - np.exp(-0.5 * ((share - 0.7) / 0.05) ** 2)
+    return 31.0 * (angle - 0.05) + 1.2 * bumps
+
+
+def answered(torque: Torque) -> dict[str, object]:
+    case = joint_case(torque)
+    return diagnose(case, system_of(case)).diagnosis.as_dict()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("torque", "effect", "parameter", "size", "near"),
+    [
+        (late, "clock_slip", "clock_slip.once.delay", 0.09, 0.005),
+        (play, "play", "play.angle.width", 0.08, 0.004),
+    ],
+)
+def test_they_are_named_at_their_size(
+    elsewhere: Elsewhere, torque: Torque, effect: str, parameter: str, size: float, near: float
+) -> None:
+    """A slip was "nothing is missing", play was damping with filter lag."""
+    d = elsewhere(answered, torque)
+    assert (d["verdict"], d["effects"]) == ("explained", [effect]), d["remarks"]
+    assert d["parameters"][parameter]["value"] == pytest.approx(size, abs=near)
+    assert d["budget"]["torque"]["effects"]["share"] > 0.95
+    (first, *_) = d["detected"]
+    assert first["effect"] == effect and first["share"] > 0.95 and first["channel"] == "torque"
+
+
+@pytest.mark.slow
+def test_a_load_that_repeats_and_has_no_name_is_unknown(elsewhere: Elsewhere) -> None:
+    d = elsewhere(answered, wander)
+    assert d["verdict"] in ("unknown", "partly_explained"), d["effects"]
+    assert d["budget"]["torque"]["unexplained"]["share"] > 0.5
+    assert any("is neither noise nor variation" in each for each in d["remarks"]), d["remarks"]
