@@ -22,7 +22,11 @@ SIMULATOR = gc.simulator_base(
 {law})
 '''
 
-FMU = '''"""{file} as a base model for `geocontact gap diagnose`: one co-simulation per trial. Keep it beside {file}."""
+FMU = '''"""{file} as a base model for `geocontact gap diagnose`: one co-simulation per trial. Keep it beside {file}.
+
+FMPy reads outputs after a step, with the inputs that the step began with. Each step here begins with the inputs of its
+end, so that outputs are those of their own sample; inputs are held over a step, a part 1/STEPS of a sample.
+"""
 
 from pathlib import Path
 
@@ -34,27 +38,35 @@ import geocontact as gc
 INPUTS = {inputs}
 OUTPUTS = {outputs}
 PARAMETERS = {parameters}
+STEPS = 4  # communication points per sample
 FILE = Path(__file__).resolve().parent / "{file}"
 UNPACKED = fmpy.extract(str(FILE))
+DESCRIPTION = fmpy.read_model_description(UNPACKED)
 
 
 def run(time, inputs, numbers):
-    """Outputs at the times of a trial; inputs are linear between samples."""
-    driven = np.zeros(len(time), dtype=[("time", float), *((name, float) for name in INPUTS)])
-    driven["time"] = time
+    """Outputs at the times of a trial; the FMU's own clock begins at 0."""
+    step = float(np.median(np.diff(time))) / STEPS
+    count = int(np.ceil((time[-1] - time[0]) / step - 1e-6)) + 1
+    own = step * np.arange(count)
+    driven = np.zeros(count, dtype=[("time", float), *((name, float) for name in INPUTS)])
+    driven["time"] = own
     for name, values in zip(INPUTS, inputs):
-        driven[name] = values
+        driven[name] = np.interp(own, time - time[0], values)
     found = fmpy.simulate_fmu(
         UNPACKED,
-        start_time=time[0],
-        stop_time=time[-1],
-        output_interval=(time[-1] - time[0]) / (len(time) - 1),
+        validate=False,
+        model_description=DESCRIPTION,
+        start_time=0.0,
+        stop_time=count * step,
+        output_interval=step,
         start_values={{name: numbers[name] for name in PARAMETERS}},
         input=driven,
         output=list(OUTPUTS),
         fmi_type="CoSimulation",
     )
-    return np.column_stack([np.interp(time, found["time"], found[name]) for name in OUTPUTS])
+    after = found["time"] - step
+    return np.column_stack([np.interp(time - time[0], after[1:], found[name][1:]) for name in OUTPUTS])
 
 
 SIMULATOR = gc.simulator_base("{name}", INPUTS, OUTPUTS, run, dynamic=True)
