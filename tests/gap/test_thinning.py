@@ -1,0 +1,59 @@
+"""Long recordings: which samples are used, that no phase of a movement is missed, that short ones stay as they are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from geocontact.data.gap_case import GapCase
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
+from geocontact.gap.case.thinning import ROWS, STRETCH, measured_rows, stretches, thinned, thinning_words
+
+
+def case_of(samples: int, trials: int = 4) -> GapCase:
+    """Trials of one input and two outputs; the second is not measured in a fifth of the samples."""
+    time = 0.01 * np.arange(samples)
+    made = []
+    for k in range(trials):
+        values = np.column_stack([np.sin(time + k), np.cos(time), np.cos(2.0 * time)])
+        values[::5, 2] = np.nan
+        made.append(Trial(f"t{k}", Signals(time, values, ("angle", "force", "torque"), ("rad", "N", "N m"))))
+    return GapCase("long", "own", tuple(made[:2]), tuple(made[2:]), (), {}, {}, {})
+
+
+def test_a_short_recording_is_the_same_object() -> None:
+    case = case_of(1000)
+    assert measured_rows(case, ("force", "torque")) == 4 * 1800 <= ROWS
+    assert thinned(case, ("force", "torque")) is case
+    assert thinning_words(7200, 7200) == ()
+
+
+@pytest.mark.parametrize("samples", [2_000, 20_000, 100_000])
+def test_a_long_one_has_as_many_rows_as_it_may(samples: int) -> None:
+    case = case_of(samples)
+    fewer = thinned(case, ("force", "torque"))
+    used = measured_rows(fewer, ("force", "torque"))
+    assert 0.85 * ROWS < used < 1.1 * ROWS
+    for before, after in zip(case.calibration, fewer.calibration, strict=True):
+        np.testing.assert_array_equal(before.column("angle"), after.column("angle"))
+        kept = np.isfinite(after.column("force"))
+        np.testing.assert_array_equal(after.column("force")[kept], before.column("force")[kept])
+    assert f"{used} are used" in thinning_words(measured_rows(case, ("force", "torque")), used)[0]
+
+
+@pytest.mark.parametrize("period", [50.0, 97.3, 333.0, 411.7, 1000.0])
+@pytest.mark.parametrize("share", [0.1, 0.42])
+def test_every_phase_of_a_movement_is_met(period: float, share: float) -> None:
+    """Against equally spaced stretches, which miss phases where their distance is a multiple of the period."""
+    used = stretches(20_000, share)
+    phase = (np.flatnonzero(used) / period % 1.0 * 20.0).astype(int)
+    count = np.bincount(phase, minlength=20)
+    assert count.min() > 0.3 * count.mean()
+    edges = np.flatnonzero(np.diff(used.astype(int), prepend=0, append=0))
+    assert np.diff(edges)[::2].min() >= STRETCH and used.mean() == pytest.approx(share, rel=0.1)
+
+
+def test_stretches_spread_over_the_whole_trial() -> None:
+    used = stretches(10_000, 0.2)
+    assert all(part.mean() == pytest.approx(0.2, abs=0.1) for part in np.split(used, 10))
