@@ -1,6 +1,6 @@
 """Torque of an elbow drive by MuJoCo's inverse dynamics: a forearm of mass m [kg] on a massless rod of length [m].
 
-inputs: angle [rad] from hanging down, outputs: torque [N m]. `law` marks where friction, damping or play may be missing.
+inputs: angle [rad] from hanging down, outputs: torque [N m]. `law` marks where friction, damping or play may act.
 """
 
 import mujoco
@@ -17,6 +17,7 @@ DATA = mujoco.MjData(MODEL)
 
 
 def run(time, inputs, numbers, law):
+    """Torque at each time; rates are those that `law` brings."""
     MODEL.body_mass[1] = numbers["m"]
     MODEL.body_ipos[1] = 0.0, 0.0, -numbers["length"]
     mujoco.mj_setConst(MODEL, DATA)

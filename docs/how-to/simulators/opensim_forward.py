@@ -43,6 +43,7 @@ def arm(numbers, time, torque):
 
 
 def run(time, inputs, numbers):
+    """Angle at each time."""
     model = arm(numbers, time, inputs[0])
     state = model.initSystem()
     state.setTime(float(time[0]))

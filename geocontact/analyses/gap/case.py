@@ -30,7 +30,8 @@ def proposal_words(one: NextExperiment, verdict: str) -> str:
     """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
     some = names(one.separates)
     why = f"would show {some}" if verdict == "no_gap" else f"would separate {some}"
-    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
+    often = "" if one.share is None else f", and leave one of them in {percent(one.share)} of 100 repetitions"
+    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more{often}"
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
 
     def fewer(trial: Trial) -> Trial:
         used = stretches(len(trial), share)
-        values = trial.signals.values.copy()  # noqa: PD011
+        values = trial.signals.values.copy()
         columns = [trial.signals.channels.index(name) for name in outputs]
         values[np.ix_(~used, columns)] = np.nan
         return replace(trial, signals=replace(trial.signals, values=values))
@@ -68,7 +68,5 @@ def thinning_words(rows: int, used: int) -> tuple[str, ...]:
     """What was done, in words; nothing where all samples are used."""
     if used >= rows:
         return ()
-    return (
-        f"of {rows} samples of the outputs {used} are used, in stretches of {STRETCH} that lie evenly over every trial: "
-        "all figures are of these",
-    )
+    where = f"in stretches of {STRETCH} that lie evenly over every trial"
+    return (f"of {rows} samples of the outputs {used} are used, {where}: all figures are of these",)

@@ -209,7 +209,7 @@ def test_columns_are_named_or_asked_about(apart: Path) -> None:
 
 def test_too_few_trials_are_refused_and_few_asked_about(apart: Path) -> None:
     simulator = file_of(apart, "own.py", 'def run(time, inputs, numbers):\n    return numbers["k"] * inputs[0]\n')
-    with pytest.raises(gc.InputError, match="holds 1 .csv files"):
+    with pytest.raises(gc.InputError, match=r"holds 1 \.csv files"):
         gc.init_gap_case(simulator=simulator, data=recordings(apart / "one", 1))
     result = gc.init_gap_case(simulator=simulator, data=recordings(apart / "three", 3))
     assert any(each.startswith("3 trials; can you record 4") for each in result.questions)

@@ -146,7 +146,7 @@ def _answers(
     at, spreads, silent = len(trial) // 2, False, []
     for name in system.inputs:
         column = trial.signals.channels.index(name)
-        values = trial.signals.values.copy()  # noqa: PD011
+        values = trial.signals.values.copy()
         half = 0.5 * float(np.nanmax(values[:, column]) - np.nanmin(values[:, column]))
         values[at, column] += BUMP * (half if half > 0.0 else 1.0)
         moved = _called(system, replace(trial, signals=replace(trial.signals, values=values)), file)
