@@ -214,7 +214,8 @@ class NextExperiment:
     gain_nats
         By how much the smallest separation grows.
     share
-        Of repetitions after which one of these effects alone remains; None where none was found.
+        Share of repetitions after which all but the true one of these effects are out of question; None where none was
+        found.
     """
 
     separates: tuple[str, ...]

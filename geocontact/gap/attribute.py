@@ -13,7 +13,6 @@ from geocontact.data.gap_case import GapCase
 from geocontact.gap.case.noise_sources import with_rounding
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.case.thinning import thinned
 from geocontact.gap.data_errors import DataError, corrected, data_error_of, hidden_mistakes, recognised, undone
 from geocontact.gap.levels import LEADING, SURE
 from geocontact.gap.selection.evidence import Judged, settled
@@ -109,7 +108,6 @@ def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody
     parameters hide wins against the effects, and the contest is held again without it.
     """
     at("the base model and the noise")
-    case = thinned(case, system.outputs)
     problem = problem_of(case, system)
     data_error = data_error_of(problem, offer(problem.system))
     if data_error is None:

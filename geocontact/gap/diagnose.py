@@ -29,7 +29,6 @@ from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
-from geocontact.gap.case.thinning import measured_rows, thinning_words
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.held_out_growth import confirmed
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
@@ -199,7 +198,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found),
-        remarks=(*_remarks(found, part is None, errors), *_thinned(case, found)),
+        remarks=_remarks(found, part is None, errors),
         next_experiment=then,
         partial=part,
         behind=behind(found) if said.effects else {},
@@ -258,12 +257,6 @@ def _remarks(found: Attribution, unexplained: bool, errors: RawInputErrors) -> t
         *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
         *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
     )
-
-
-def _thinned(case: GapCase, found: Attribution) -> tuple[str, ...]:
-    """In words, how many samples of a long recording were used."""
-    used = sum(int(there.sum()) for there in found.problem.recorded.present)
-    return thinning_words(measured_rows(case, found.problem.system.outputs), used)
 
 
 def misfit_words(found: Attribution) -> tuple[str, ...]:

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from geocontact.analyses.frame.collector import add_input
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
@@ -14,6 +16,16 @@ from geocontact.data.gap_case import GapCase
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
 from geocontact.systems.catalogue import system_of
+
+SAMPLES = 401  # of the longest trial that the page shows
+OTHER = {
+    "m": ("mm", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "m^2": ("mm²", 1e6),
+    "rad": ("deg", 180.0 / np.pi),
+    "rad/s": ("deg/s", 180.0 / np.pi),
+}
+"""Units that are shown in others."""
 
 
 def names(some: Sequence[str], last: str = "and") -> str:
@@ -30,7 +42,7 @@ def proposal_words(one: NextExperiment, verdict: str) -> str:
     """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
     some = names(one.separates)
     why = f"would show {some}" if verdict == "no_gap" else f"would separate {some}"
-    often = "" if one.share is None else f", and leave one of them in {percent(one.share)} of 100 repetitions"
+    often = "" if one.share is None else f", enough in {percent(one.share)} of 100 repetitions"
     return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more{often}"
 
 

@@ -1,11 +1,12 @@
-"""How often the proposed trials would leave one explanation: what a next experiment promises.
+"""How often the proposed trials would tell explanations apart: what a next experiment promises.
 
 Where A is true, what the trials say for A over B, in nats, is the lead d that it has on the trials that exist and the
 evidence of the new ones. That is the logarithm of a ratio of likelihoods of normal numbers whose means differ: normal
 itself, with mean Δ and variance 2 Δ, Δ what B leaves of A's prediction on them (Van Trees 1968, Detection, Estimation,
-and Modulation Theory I, section 2.2). B is out of question once it is T nats behind, so A alone remains with
-probability Φ((d + Δ - T) / √(2 Δ)). T is what the verdict asks (`selection.verdict`): its smallest probability, and the
-tolerance of the form, which grows with what there is to explain.
+and Modulation Theory I, section 2.2). B is out of question once it is T nats behind, with probability
+Φ((d + Δ - T) / √(2 Δ)). T is what the verdict asks (`selection.verdict`): its smallest probability, and the
+tolerance of the form, which grows with what there is to explain. Whether A is then named is another question: an effect
+that is not worth a name is not.
 """
 
 from __future__ import annotations
@@ -17,9 +18,6 @@ from statistics import NormalDist
 import numpy as np
 
 from geocontact.gap.levels import SLIGHT
-
-EFFICIENCY = 1.0
-"""Part of the evidence that a diagnosis keeps which estimates noise and variation from the same trials."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,7 @@ def margin(most: float) -> float:
 
 
 def share_told_apart(outlooks: Sequence[Outlook], most: float) -> float:
-    """Share of repetitions of the new trials after which the true explanation is the only one, over all of them.
+    """Share of repetitions of the new trials after which every other explanation than the true one is out of question.
 
     Parameters
     ----------
@@ -55,14 +53,14 @@ def share_told_apart(outlooks: Sequence[Outlook], most: float) -> float:
         What the best model gains over the base on all trials, new ones included [nats].
     """
     total = sum(one.weight for one in outlooks)
-    return sum(one.weight / total * _alone(one, margin(most)) for one in outlooks)
+    return sum(one.weight / total * _ahead(one, margin(most)) for one in outlooks)
 
 
-def _alone(one: Outlook, needed: float) -> float:
+def _ahead(one: Outlook, needed: float) -> float:
     """Probability that the hardest of the others falls behind far enough."""
     found = 1.0
     for lead, gain in zip(one.leads, one.gains, strict=True):
-        kept = EFFICIENCY * max(gain, 1e-12)
+        kept = max(gain, 1e-12)
         found = min(found, NormalDist().cdf((lead + kept - needed) / float(np.sqrt(2.0 * kept))))
     return found
 

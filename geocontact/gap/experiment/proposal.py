@@ -248,7 +248,7 @@ def _most_promising(found: Attribution, problem: Problem, lead: Judged, pairs: l
 
 
 def _share(found: Attribution, problem: Problem, pairs: Sequence[ModelPair], gains: Sequence[float]) -> float:
-    """Share of repetitions after which one explanation remains (`gap.experiment.promise`)."""
+    """Share of repetitions after which all but the true explanation are out (`gap.experiment.promise`)."""
     by_name = {"+".join(one.names): one.nats for one in sorted(found.contenders, key=lambda one: one.nats)}
     names = tuple(dict.fromkeys(pair.true.name for pair in pairs))
     odds = found.answer.probabilities

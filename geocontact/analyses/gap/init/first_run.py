@@ -21,9 +21,9 @@ MOST_NUMBERS = 200
 UNKNOWN = 1.0
 """Value of a number that nobody gave, for the first call only."""
 BUMP = 0.01
-"""Of the half-range of an input, by which one sample is moved."""
+"""Share of the half-range of an input by which one sample is moved."""
 SPREADS = 1e-3
-"""Of the largest change of an output, from which a change at another sample counts."""
+"""Share of the largest change of an output from which a change at another sample counts."""
 FACTORS = {"180/π": 180.0 / np.pi, "1000": 1e3, "100": 100.0, "9.81": 9.80665, "4.448": 4.44822}
 """Ratios of units that are mixed up often."""
 CLOSE = 0.15

@@ -42,7 +42,7 @@ class FmuVariable:
 
 
 def read_fmu(file: Path) -> tuple[FmuVariable, ...]:
-    """Its real inputs, outputs and parameters; InputError where it is no FMU for co-simulation."""
+    """Real inputs, outputs and parameters of an FMU; InputError where it is no FMU for co-simulation."""
     try:
         with ZipFile(file) as archive:
             if archive.getinfo(DESCRIPTION).file_size > LARGEST:

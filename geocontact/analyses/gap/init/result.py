@@ -12,8 +12,8 @@ r"""A gap case begun: `geocontact gap init`, `gc.init_gap_case`.
 >>> result = gc.init_gap_case(simulator="strut.py", data="recordings", number={"k": 80.0})
 >>> print(result.sentences[0])
 run of strut.py was called on 4 trials: angle [rad] → torque [N m]
->>> result.system.name, result.errors["t1"]["torque"].round(2)
-('strut', np.float64(0.73))
+>>> f"{result.errors['t1']['torque']:.2f} N m"
+'0.73 N m'
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -93,8 +94,13 @@ class InitResult(Result):
         return self.run.system
 
     @property
+    def time(self) -> dict[str, Float[np.ndarray, " t"]]:
+        """Time of the rows of each trial [s]."""
+        return {one.name: one.time for one in (*self.case.calibration, *self.case.evaluation)}
+
+    @property
     def errors(self) -> dict[str, dict[str, float]]:
-        """Root mean square of measured minus simulated at the start values, by trial and channel [SI]."""
+        """Measured minus simulated at the start values, root mean square by trial and channel [SI unit of the channel]."""
         return errors_of(self.case, self.system.outputs, self.run.simulated)
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -154,7 +160,7 @@ def run(case: GapCase, o: InitOptions) -> InitResult:
     sides = [", ".join(f"{n} [{units[n]}]" for n in names) for names in (first.system.inputs, first.system.outputs)]
     count = len(case.calibration) + len(case.evaluation)
     say(f"{found.words} was called on {count} trials: {sides[0]} → {sides[1]}")
-    say(f"one call takes {first.seconds:.2g} s; a diagnosis takes about 3000 for each trial")
+    say(f"one call takes {first.seconds:.2g} s; a diagnosis makes about 3000, of a model with memory ten times as many")
     for question in questions:
         say(f"open: {question}")
     if found.adapter[0]:
@@ -191,7 +197,9 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     declared = {p.name for p in found.declared}
     if names := [p.name for p in first.system.parameters if p.name not in declared]:
         asked.append(f"start, lower, upper and unit of {', '.join(names)}; fixed = true for what is known exactly")
-    asked.append(f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; estimated without")
+    asked.append(
+        f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; without it the noise is estimated"
+    )
     if first.silent:
         asked.append(f"{', '.join(first.silent)} changed no output at all: is it the right column?")
     trials = (*case.calibration, *case.evaluation)

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
-from geocontact.analyses.gap.gather.show import OTHER, SAMPLES
+from geocontact.analyses.gap.case import OTHER, SAMPLES
 from geocontact.analyses.gap.init.first_run import UNKNOWN, FirstRun
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial

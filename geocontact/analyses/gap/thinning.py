@@ -13,10 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool
 
+from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.gap.case import CaseWithModel, read_case
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 
@@ -26,6 +29,19 @@ STRETCH = 60
 """Samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
 FEWEST_STRETCHES = 3
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+
+
+def read_thinned(folder: Path, run_simulator: bool) -> CaseWithModel:
+    """The case in a folder with its base model, thinned where it is long, which is said (`analyses.gap.case`)."""
+    given = read_case(folder, run_simulator)
+    outputs = given.system.outputs
+    case = thinned(given.case, outputs)
+    if case is given.case:
+        return given
+    rows, used = measured_rows(given.case, outputs), measured_rows(case, outputs)
+    where = f"in stretches of {STRETCH} that lie evenly over every trial"
+    reserve(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
+    return replace(given, case=case)
 
 
 def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
@@ -62,11 +78,3 @@ def stretches(count: int, share: float) -> Bool[np.ndarray, " t"]:
         first = round(part * k + (part - STRETCH) * ((k + 1) * GOLDEN % 1.0))
         used[first : first + STRETCH] = True
     return used
-
-
-def thinning_words(rows: int, used: int) -> tuple[str, ...]:
-    """What was done, in words; nothing where all samples are used."""
-    if used >= rows:
-        return ()
-    where = f"in stretches of {STRETCH} that lie evenly over every trial"
-    return (f"of {rows} samples of the outputs {used} are used, {where}: all figures are of these",)
