@@ -43,7 +43,7 @@ class FirstRun:
     simulated
         Outputs at the start values, by trial.
     seconds
-        Of one call, the longest.
+        Power of ten that no call takes longer than.
     spreads
         Whether a change of the inputs at one sample changes outputs at others.
     silent
@@ -92,7 +92,12 @@ def first_run(found: FoundSimulator, case: GapCase, starts: Mapping[str, float],
         simulated[trial.name] = _called(system, trial, file)
         longest = max(longest, time.perf_counter() - began)
     spreads, silent = _answers(system, trials[0], simulated[trials[0].name], file)
-    return FirstRun(system, tuple(unknown), simulated, longest, spreads, silent)
+    return FirstRun(system, tuple(unknown), simulated, decade(longest), spreads, silent)
+
+
+def decade(seconds: float) -> float:
+    """The next power of ten, a millisecond at the least: what is written does not depend on how busy a machine is."""
+    return float(10.0 ** max(np.ceil(np.log10(max(seconds, 1e-9))), -3.0))
 
 
 def _built(found: FoundSimulator, parameters: tuple[Parameter, ...], file: str) -> System:

@@ -100,7 +100,7 @@ class InitResult(Result):
 
     @property
     def errors(self) -> dict[str, dict[str, float]]:
-        """Measured minus simulated at the start values, root mean square by trial and channel [SI unit of the channel]."""
+        """Root mean square of measured minus simulated by trial and channel [SI unit of the channel]."""
         return errors_of(self.case, self.system.outputs, self.run.simulated)
 
     def tables(self) -> dict[str, pd.DataFrame]:
@@ -160,7 +160,8 @@ def run(case: GapCase, o: InitOptions) -> InitResult:
     sides = [", ".join(f"{n} [{units[n]}]" for n in names) for names in (first.system.inputs, first.system.outputs)]
     count = len(case.calibration) + len(case.evaluation)
     say(f"{found.words} was called on {count} trials: {sides[0]} → {sides[1]}")
-    say(f"one call takes {first.seconds:.2g} s; a diagnosis makes about 3000, of a model with memory ten times as many")
+    many = "about 3000, of a model with memory ten times as many"
+    say(f"one call takes less than {first.seconds:g} s; a diagnosis makes {many}")
     for question in questions:
         say(f"open: {question}")
     if found.adapter[0]:
@@ -198,7 +199,7 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     if names := [p.name for p in first.system.parameters if p.name not in declared]:
         asked.append(f"start, lower, upper and unit of {', '.join(names)}; fixed = true for what is known exactly")
     asked.append(
-        f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; without it the noise is estimated"
+        f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; estimated where it is not given"
     )
     if first.silent:
         asked.append(f"{', '.join(first.silent)} changed no output at all: is it the right column?")

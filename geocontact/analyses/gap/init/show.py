@@ -43,7 +43,7 @@ def init_page(
         facts=[
             ("To fit to", ", ".join(each.name for each in case.calibration)),
             ("Held out", ", ".join(each.name for each in case.evaluation)),
-            ("Longest call", f"{run.seconds:.2g} s"),
+            ("Longest call", f"less than {run.seconds:g} s"),
             ("Open questions", str(len(questions))),
         ],
         sections=tuple(sections),
