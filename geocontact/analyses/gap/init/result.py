@@ -198,9 +198,7 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     declared = {p.name for p in found.declared}
     if names := [p.name for p in first.system.parameters if p.name not in declared]:
         asked.append(f"start, lower, upper and unit of {', '.join(names)}; fixed = true for what is known exactly")
-    asked.append(
-        f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; estimated where it is not given"
-    )
+    asked.append(f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated")
     if first.silent:
         asked.append(f"{', '.join(first.silent)} changed no output at all: is it the right column?")
     trials = (*case.calibration, *case.evaluation)
