@@ -9,6 +9,7 @@ from geocontact.analyses.frame.result import Result
 from geocontact.analyses.gap.diagnose.result import diagnose
 from geocontact.analyses.gap.discriminability.result import discriminability
 from geocontact.analyses.gap.gather.result import gather
+from geocontact.analyses.gap.init.result import init_gap_case
 from geocontact.analyses.gap.inject.result import inject
 from geocontact.analyses.loadcells.result import load_cells
 from geocontact.analyses.mat.result import mat
@@ -80,6 +81,7 @@ __all__ = [
     "functional_joint",
     "gather",
     "inch",
+    "init_gap_case",
     "inject",
     "inverse_dynamics",
     "inverse_kinematics",

@@ -157,6 +157,7 @@ ENTRIES = (
         "gap discriminability", "gap.discriminability", "DiscriminabilityOptions", "result:discriminability", "confuse"
     ),
     Entry("gap gather", "gap.gather", "GatherOptions", "result:gather"),
+    Entry("gap init", "gap.init", "InitOptions", "result:init_gap_case"),
     Entry("gap inject", "gap.inject", "InjectOptions", "result:inject", "plant"),
     Entry("gap benchmark", "gap.benchmark", "BenchmarkOptions", "result:benchmark", exported=False),
     Entry("id", "motion.inverse_dynamics", "IdOptions", "result:inverse_dynamics"),

@@ -246,15 +246,20 @@ class NextExperiment:
         What to do, in words with numbers.
     gain_nats
         By how much the smallest separation grows.
+    share
+        Share of repetitions after which all but the true one of these effects are out of question; None where none was
+        found.
     """
 
     separates: tuple[str, ...]
     change: str
     gain_nats: float
+    share: float | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """The content of diagnosis.json."""
-        return {"separates": list(self.separates), "change": self.change, "gain_nats": self.gain_nats}
+        numbers = {"gain_nats": self.gain_nats, "share": self.share}
+        return {"separates": list(self.separates), "change": self.change, **numbers}
 
 
 @dataclass(frozen=True)

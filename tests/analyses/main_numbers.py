@@ -135,6 +135,17 @@ def channels(out: Path) -> dict[str, dict[str, Any]]:
     }
 
 
+def missed(out: Path) -> dict[str, dict[str, float]]:
+    """Root mean square of measured minus simulated, from the curves."""
+    table = pd.read_csv(out / "first_run.csv").set_index("trial")
+    measured = [name for name in table if " measured [" in name]
+    off = {
+        name.partition(" measured")[0]: table[name] - table[name.replace("measured", "simulated")] for name in measured
+    }
+    errors = pd.DataFrame({name: values**2 for name, values in off.items()}).groupby(level=0).mean() ** 0.5
+    return {str(trial): row.to_dict() for trial, row in errors.iterrows()}
+
+
 def reduced(out: Path) -> dict[tuple[str, str], float]:
     """Case by its person, task and hand."""
     table = pd.read_csv(out / "outcomes.csv")
@@ -179,6 +190,7 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "rms": entry("joint.json", "apart_rms_mm", factor=MM),
     },
     "gather": {"time": trials("time [s]"), "channels": channels},
+    "init_gap_case": {"time": trials("time [s]"), "errors": missed},
     "inject": {
         "amplitudes": entries("planted.json", "parameters"),
         "size": entry("planted.json", "gap_over_floor"),

@@ -12,7 +12,7 @@ from tests.cli.calls import call, done, inventory
 from tests.cli.gap_cases import damped_elbow, diagnosed_elbow
 from tests.unchecked import unchecked
 
-TABLES = {"confuse.json", "separability.csv", "detectability.csv", "run.json"}
+TABLES = {"confuse.json", "separability.csv", "detectability.csv", "protocol.md", "run.json"}
 FIGURES = {f"{name}.{ending}" for name in ("separability", "detectability") for ending in ("png", "svg")}
 
 

@@ -22,6 +22,7 @@ ALL = 3_000_000  # bytes of all pictures
 NOT_SHOWN = {
     "gap benchmark": "made for those who change the diagnosis",
     "gap gather": "needs recordings of several laboratories' devices",
+    "gap init": "needs a simulator of somebody's own: my_simulator.md makes one",
     "prosthesis compare": "needs a study file of three settings: its how-to makes one",
     "prosthesis walk": "its page moves as that of `prosthesis simulate`",
     "scale": "its page is that of `prosthesis scale`",

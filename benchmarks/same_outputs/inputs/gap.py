@@ -29,6 +29,14 @@ FNR == 1 { k = number("k"); neutral = number("neutral"); print "time [s],torque 
 { turned = $2 - neutral; printf "%s,%.17g\n", $1, k * turned * (1 + 0.3 * turned^2) > out }
 """
 
+STRUT = """import numpy as np
+
+
+def run(time, inputs, numbers):
+    turned = inputs[0] - numbers["neutral"]
+    return numbers["k"] * turned * (1.0 + 0.3 * turned**2)
+"""
+
 
 def make(home: Path, meshes: Path) -> None:
     """Each in a folder of its own; `spoilt` is an elbow whose unit nobody knows."""
@@ -38,6 +46,7 @@ def make(home: Path, meshes: Path) -> None:
     written(trial, trial.read_text("utf-8").replace("force [N]", "force [stone]"))
     joint(home / "joint")
     program(home / "program")
+    written(home / "strut.py", STRUT)
     chain(home / "chain", meshes)
 
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.frame.consent import foreign
 from geocontact.chain.system import System
@@ -16,6 +18,16 @@ from geocontact.io.cases.case_settings import SETTINGS, read_settings
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
 from geocontact.systems.catalogue import system_of
+
+SAMPLES = 401  # of the longest trial that the page shows
+OTHER = {
+    "m": ("mm", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "m^2": ("mm²", 1e6),
+    "rad": ("deg", 180.0 / np.pi),
+    "rad/s": ("deg/s", 180.0 / np.pi),
+}
+"""Units that are shown in others."""
 
 
 def names(some: Sequence[str], last: str = "and") -> str:
@@ -32,7 +44,8 @@ def proposal_words(one: NextExperiment, verdict: str) -> str:
     """What to record next, and what for: to show what is absorbed where nothing was found, else to tell apart."""
     some = names(one.separates)
     why = f"would show {some}" if verdict == "no_gap" else f"would separate {some}"
-    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more"
+    often = "" if one.share is None else f", enough in {percent(one.share)} of 100 repetitions"
+    return f"next: {one.change}; that {why} by {one.gain_nats:g} nats more{often}"
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import ROUNDS, Measured, RefitSearch, Whiten, derivatives
 from geocontact.gap.case.whitening import Whitening, propagated_input_noise
 from geocontact.gap.experiment.menu import Experiment, menu
+from geocontact.gap.experiment.promise import outlooks_of, share_told_apart
 from geocontact.gap.inputs.spectrum import measured_inputs
 from geocontact.gap.levels import APART, LEADING
 from geocontact.gap.selection.evidence import Judged, prior_spread
@@ -235,14 +236,27 @@ def _most_promising(found: Attribution, problem: Problem, lead: Judged, pairs: l
     ]
     promising = sorted((each for each in promised if each[0] > needed), key=lambda each: -each[0])
     for _, one in promising[:CHECKED]:
-        left = min(_remaining(problem, lead, one, pair) for pair in pairs)
-        if left > needed:
+        left = [_remaining(problem, lead, one, pair) for pair in pairs]
+        if min(left) > needed:
             names = [
                 name for name in found.answer.ambiguity if any(name in pair.true.name.split("+") for pair in pairs)
             ]
-            said = _next_experiment(one.experiment, names, left - least)
+            gains = [after - rows.nats for after, rows in zip(left, before, strict=True)]
+            said = _next_experiment(one.experiment, names, min(left) - least, _share(found, problem, pairs, gains))
             return Proposal(said, one.experiment, tuple(pairs), lead)
     return None
+
+
+def _share(found: Attribution, problem: Problem, pairs: Sequence[ModelPair], gains: Sequence[float]) -> float:
+    """Share of repetitions after which all but the true explanation are out (`gap.experiment.promise`)."""
+    by_name = {"+".join(one.names): one.nats for one in sorted(found.contenders, key=lambda one: one.nats)}
+    names = tuple(dict.fromkeys(pair.true.name for pair in pairs))
+    odds = found.answer.probabilities
+    weights = {name: min(odds.get(each, 0.0) for each in name.split("+")) for name in names}
+    left = {(pair.true.name, pair.confounder.name): gain for pair, gain in zip(pairs, gains, strict=True)}
+    trials = len(problem.recorded.trials)
+    most = (max(by_name[name] for name in names) - found.base.nats) * (trials + TRIALS) / trials
+    return share_told_apart(outlooks_of(names, by_name, weights, left), most)
 
 
 def _remaining(problem: Problem, lead: Judged, one: Rehearsed, pair: ModelPair) -> float:
@@ -286,8 +300,9 @@ def _unveiling(problem: Problem, base: Judged, pairs: list[ModelPair]) -> Propos
     return Proposal(_next_experiment(best[2], best[3], best[1]), best[2], shown_by, base)
 
 
-def _next_experiment(one: Experiment, names: Sequence[str], gain: float) -> NextExperiment:
-    return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"))
+def _next_experiment(one: Experiment, names: Sequence[str], gain: float, share: float | None = None) -> NextExperiment:
+    rounded = None if share is None else round(share, 2)
+    return NextExperiment(tuple(names), f"record {TRIALS} trials: {one.words}", float(f"{gain:.3g}"), rounded)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
 from geocontact.gap.case.admission import admitted
-from geocontact.gap.experiment.proposal import first_of, next_experiment
+from geocontact.gap.experiment.proposal import Proposal, first_of, proposed
 from geocontact.gap.identifiability.detectability import Detectability, detectabilities
 from geocontact.gap.identifiability.non_identifiable import confounded, mistakes, shown, visibilities
 from geocontact.gap.identifiability.separability import Separation, classes, separations
@@ -44,8 +44,8 @@ class Discriminability:
         first.
     mistakes
         Names of mistakes in the data that would leave a gap in every variant, if made in all calibration trials.
-    proposal
-        What to record next.
+    planned
+        What to record next, with the experiment and what it was chosen by.
     """
 
     found: Attribution
@@ -56,7 +56,12 @@ class Discriminability:
     detectabilities: tuple[Detectability, ...]
     absorbed: tuple[str, ...]
     mistakes: tuple[str, ...]
-    proposal: NextExperiment | None
+    planned: Proposal | None
+
+    @property
+    def proposal(self) -> NextExperiment | None:
+        """What to record next, in words and nats."""
+        return None if self.planned is None else self.planned.said
 
 
 def offered(system: System, names: Sequence[str] = ()) -> tuple[Candidate, ...]:
@@ -105,5 +110,5 @@ def discriminability(
         wrong = mistakes(problem, known(problem.system, names))
         hidden = tuple(each.name for each in confounded((*visibilities(problem, asked), *wrong), ()))
         seen = detectabilities(ground, offered(problem.system), asked, step)
-        proposal = next_experiment(found, first_of(asked, hidden))
-    return Discriminability(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), proposal)
+        planned = proposed(found, first_of(asked, hidden))
+    return Discriminability(found, ground, effects, apart, classes(apart), seen, hidden, shown(wrong), planned)

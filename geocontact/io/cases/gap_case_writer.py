@@ -104,17 +104,17 @@ def _settings(case: GapCase, units: Mapping[str, str]) -> Iterator[str]:
     yield f"calibration = {_words(case.calibration)}"
     yield f"evaluation = {_words(case.evaluation)}"
     for key in case.tables:
-        yield f"{_key(key)} = {_word(_file_of(key))}"
+        yield f"{toml_key(key)} = {_word(_file_of(key))}"
     yield from _section("layout", {site: _word(_layout_file(site)) for site in case.cells})
     si = dict(zip(case.calibration[0].signals.channels, case.calibration[0].signals.units, strict=True))
     noise = {name: sd / _per_unit(name, si[name], units.get(name, si[name])) for name, sd in case.noise.items()}
     yield from _section("noise", {name: repr(float(sd)) for name, sd in noise.items()})
     yield from _section("constants", {name: repr(float(value)) for name, value in case.constants.items()})
     for parameter in case.parameters:
-        yield from _section(f"parameters.{_key(parameter.name)}", _parameter(parameter))
+        yield from _section(f"parameters.{toml_key(parameter.name)}", _parameter(parameter))
     for trial in (*case.calibration, *case.evaluation):
         numbers = {name: repr(float(value)) for name, value in trial.covariates.items()}
-        yield from _section(f"trial.{_key(trial.name)}", numbers | {k: _word(v) for k, v in trial.labels.items()})
+        yield from _section(f"trial.{toml_key(trial.name)}", numbers | {k: _word(v) for k, v in trial.labels.items()})
 
 
 def _parameter(p: Parameter) -> dict[str, str]:
@@ -126,10 +126,11 @@ def _section(name: str, lines: Mapping[str, str]) -> Iterator[str]:
     if lines:
         yield ""
         yield f"[{name}]"
-        yield from (f"{_key(key)} = {value}" for key, value in lines.items())
+        yield from (f"{toml_key(key)} = {value}" for key, value in lines.items())
 
 
-def _key(name: str) -> str:
+def toml_key(name: str) -> str:
+    """A name as a key of TOML, in quotes where it needs them."""
     return name if _BARE.fullmatch(name) else _word(name)
 
 

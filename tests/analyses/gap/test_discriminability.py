@@ -98,7 +98,7 @@ def test_groups_that_look_alike_are_one_sentence() -> None:
     """Three groups made three sentences of the same words."""
     groups = (("a", "b"), ("c", "d", "e"), ("f", "g"))
     found = SimpleNamespace(
-        detectabilities=(), absorbed=(), mistakes=(), classes=groups, effects=(), proposal=None, found=None
+        detectabilities=(), absorbed=(), mistakes=(), classes=groups, effects=(), planned=None, found=None
     )
     said = [line for line in confusion_sentences(found) if "not separable" in line]  # type: ignore[arg-type]
     assert said == ["not separable (less than 5 nats between any two): a and b; c, d and e; f and g"]
@@ -112,6 +112,6 @@ def test_python_and_command_write_the_same_tables(confused: DiscriminabilityResu
         called = gc.discriminability(case, effects=asked, bare=True).write(tmp_path / "called")
     done(typed)
     names = {file.name for file in called.iterdir()} - {"run.json"}
-    assert names == {"confuse.json", "separability.csv", "detectability.csv"}
+    assert names == {"confuse.json", "separability.csv", "detectability.csv", "protocol.md"}
     for name in names:
         assert (tmp_path / "typed" / name).read_bytes() == (called / name).read_bytes(), name

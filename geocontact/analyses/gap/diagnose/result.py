@@ -31,11 +31,12 @@ from geocontact.analyses.frame.collector import as_it_fits, contradicted, judge,
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
-from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.analyses.gap.case import CaseWithModel
 from geocontact.analyses.gap.diagnose.answer import diagnosis_tables, untried_law, verdict_sentences
 from geocontact.analyses.gap.diagnose.curves import gap_figures, map_figure
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
 from geocontact.analyses.gap.diagnose.show import gap_page
+from geocontact.analyses.gap.thinning import read_thinned
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.version import VERSION
@@ -127,7 +128,7 @@ class DiagnoseResult(Result):
 
 def read(o: DiagnoseOptions) -> CaseWithModel:
     """Case and base model."""
-    return read_case(o.case, o.run_simulator)
+    return read_thinned(o.case, o.run_simulator)
 
 
 def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:

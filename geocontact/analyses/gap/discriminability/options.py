@@ -31,7 +31,9 @@ class DiscriminabilityOptions(Options):
     """
 
     writes: ClassVar[str] = """
-    Writes confuse.json, separability.csv, detectability.csv, report.html, figures (.png, .svg) and run.json into OUT.
+    Writes confuse.json, separability.csv, detectability.csv, protocol.md (a sheet for the laboratory: what to record
+    next), protocol.csv (its inputs over time) where trials are proposed, report.html, figures (.png, .svg) and run.json
+    into OUT.
     """
 
     case: CaseFolder

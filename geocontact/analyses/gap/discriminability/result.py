@@ -33,7 +33,7 @@ from geocontact.analyses.frame.collector import listener, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
-from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.analyses.gap.case import CaseWithModel
 from geocontact.analyses.gap.discriminability.answer import (
     answer,
     confusion_sentences,
@@ -42,7 +42,9 @@ from geocontact.analyses.gap.discriminability.answer import (
     sizes_sentence,
 )
 from geocontact.analyses.gap.discriminability.options import DiscriminabilityOptions
+from geocontact.analyses.gap.discriminability.protocol import protocol_table, protocol_text
 from geocontact.analyses.gap.discriminability.show import confusion_figures, confusion_page
+from geocontact.analyses.gap.thinning import read_thinned
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
@@ -98,8 +100,12 @@ class DiscriminabilityResult(Result):
         return {(one.true, one.confounder): one.nats for one in self.found.separations}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each."""
-        return {"separability": separability_table(self.found), "detectability": detectability_table(self.found)}
+        """`separability`: a row per pair of effects; `detectability`: the smallest amplitude of each; `protocol`: the
+        inputs of a trial to be recorded next, where one is proposed.
+        """
+        tables = {"separability": separability_table(self.found), "detectability": detectability_table(self.found)}
+        course = protocol_table(self.found)
+        return tables if course is None else tables | {"protocol": course}
 
     def figures(self) -> dict[str, Figure]:
         """`separability`: nats between every two effects; `detectability`: from which size on effects are seen."""
@@ -110,8 +116,10 @@ class DiscriminabilityResult(Result):
         return {REPORT: confusion_page(self.title, self.found)}
 
     def write_files(self, folder: Path) -> None:
-        """Also the answer."""
+        """Also the answer, and the sheet for the laboratory."""
         super().write_files(folder)
+        text = protocol_text(self.case, self.found)
+        (folder / "protocol.md").write_text(text, encoding="utf-8", newline="\n")
         write_json(folder / "confuse.json", answer(self.case, self.found, self.options.nats))
 
 
@@ -125,7 +133,7 @@ class Question:
 
 def read(o: DiscriminabilityOptions) -> Question:
     """Case, base model and effects."""
-    given = read_case(o.case, o.run_simulator)
+    given = read_thinned(o.case, o.run_simulator)
     return Question(given, asked(o.effects, given.system))
 
 

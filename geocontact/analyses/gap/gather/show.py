@@ -7,19 +7,10 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
+from geocontact.analyses.gap.case import OTHER, SAMPLES
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.view.page.content import Curve, Curves, Page, Section, Table, Words
-
-SAMPLES = 401  # of the longest trial that the page shows
-OTHER = {
-    "m": ("mm", 1e3),
-    "m/s": ("mm/s", 1e3),
-    "m^2": ("mm²", 1e6),
-    "rad": ("deg", 180.0 / np.pi),
-    "rad/s": ("deg/s", 180.0 / np.pi),
-}
-"""Units that are shown in others."""
 
 
 def gather_page(title: str, case: GapCase) -> Page:

@@ -1,0 +1,1 @@
+"""A gap case begun from a simulator of somebody's own and a folder of recordings."""

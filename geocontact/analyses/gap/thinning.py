@@ -1,0 +1,80 @@
+"""Long recordings: outputs are used in short stretches that lie evenly over every trial.
+
+Cost grows with the samples of the outputs, what they tell hardly does: noise of a prediction falls with their square
+root, and a limit of detection below what trial-to-trial variation leaves open does nobody good. Inputs stay whole, so
+simulations and rates are those of the full recording. Within a stretch every sample stays: lags, the memory of noise,
+levels at which a sensor clips and held samples are as they were recorded.
+
+Stretches begin at a low-discrepancy sequence within equal parts of a trial (multiples of the golden section, Kuipers &
+Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool
+
+from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+
+ROWS = 8_400
+"""Measured samples of all outputs and trials that a diagnosis uses."""
+STRETCH = 60
+"""Samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
+FEWEST_STRETCHES = 3
+GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+
+
+def read_thinned(folder: Path, run_simulator: bool) -> CaseWithModel:
+    """The case in a folder with its base model, thinned where it is long, which is said (`analyses.gap.case`)."""
+    given = read_case(folder, run_simulator)
+    outputs = given.system.outputs
+    case = thinned(given.case, outputs)
+    if case is given.case:
+        return given
+    rows, used = measured_rows(given.case, outputs), measured_rows(case, outputs)
+    where = f"in stretches of {STRETCH} that lie evenly over every trial"
+    reserve(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
+    return replace(given, case=case)
+
+
+def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
+    """The case with at most about `ROWS` samples of its outputs; the same object where it has no more."""
+    rows = measured_rows(case, outputs)
+    if rows <= ROWS:
+        return case
+    share = ROWS / rows
+
+    def fewer(trial: Trial) -> Trial:
+        used = stretches(len(trial), share)
+        values = trial.signals.values.copy()
+        columns = [trial.signals.channels.index(name) for name in outputs]
+        values[np.ix_(~used, columns)] = np.nan
+        return replace(trial, signals=replace(trial.signals, values=values))
+
+    return replace(case, calibration=tuple(map(fewer, case.calibration)), evaluation=tuple(map(fewer, case.evaluation)))
+
+
+def measured_rows(case: GapCase, outputs: Sequence[str]) -> int:
+    """How many samples of these channels were measured, in all trials."""
+    trials = (*case.calibration, *case.evaluation)
+    return sum(int(np.isfinite(trial.column(name)).sum()) for trial in trials for name in outputs)
+
+
+def stretches(count: int, share: float) -> Bool[np.ndarray, " t"]:
+    """Which of `count` samples are used, a share of them; all where the stretches would touch."""
+    number = max(FEWEST_STRETCHES, round(share * count / STRETCH))
+    part = count / number
+    if part <= STRETCH:
+        return np.ones(count, dtype=bool)
+    used = np.zeros(count, dtype=bool)
+    for k in range(number):
+        first = round(part * k + (part - STRETCH) * ((k + 1) * GOLDEN % 1.0))
+        used[first : first + STRETCH] = True
+    return used
