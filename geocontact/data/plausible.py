@@ -60,6 +60,8 @@ class Plausible:
         0 is as good as what is usual: it stands for none.
     why
         What has the usual sizes, from the smallest to the largest.
+    least
+        What is nearer to 0 is unusual, on either side of it, but for 0 itself.
     """
 
     what: str
@@ -68,6 +70,7 @@ class Plausible:
     usual: tuple[float, float] | None = None
     or_zero: bool = False
     why: str = ""
+    least: float = 0.0
 
     def refusal(self, value: float, written: float | None = None) -> tuple[str, str] | None:
         """What is wrong with a value [SI], and what to do about it; None when it is possible.
@@ -84,9 +87,11 @@ class Plausible:
 
     def doubt(self, value: float, written: float | None = None) -> str | None:
         """Why a value [SI] that is possible is not likely; None when it is usual. `written` as for `refusal`."""
-        if self.usual is None or self._holds(value, self.usual):
+        if self.usual is None or self._is_usual(value):
             return None
         low, high = self.usual
+        if self._holds(value, self.usual):
+            low = self.least
         usual = f"{low:g} to {self.shown(high * self.unit.factor)}{self.why and f' ({self.why})'}"
         line = f"{self.shown(value)} is unusual for {self.what}, which mostly is {usual}"
         question = self._question(value, written)
@@ -107,6 +112,10 @@ class Plausible:
         """A value [SI] with the unit that people read."""
         return f"{value / self.unit.factor:.6g} {self.unit.name}".strip()
 
+    def _is_usual(self, value: float) -> bool:
+        near = 0.0 < abs(value) < self.least * self.unit.factor * (1.0 - ROUNDING)
+        return self._holds(value, self.usual or self.possible) and not near
+
     def _holds(self, value: float, ends: tuple[float, float]) -> bool:
         if self.or_zero and value == 0.0:
             return True
@@ -121,7 +130,7 @@ class Plausible:
         for number in filter(_may_be_written, numbers if written is None else (written,)):
             for unit in units:
                 meant = number * unit.factor
-                if meant != value and self._holds(meant, self.usual or self.possible):
+                if meant != value and self._is_usual(meant):
                     return f"is {number:.6g} {unit.name} meant?"
         return ""
 
@@ -198,7 +207,7 @@ JOINT_ANGLE = Plausible("an angle of a joint", deg, (-720.0, 720.0))
 BIN = Plausible("a width of bins", deg, (0.1, 30.0))
 
 FORCE = Plausible("the force of a person", N, (0.0, 1e5), (0.1, 1e4), or_zero=True)
-LIMIT = Plausible("the largest force on a limb", N, (1e-6, 1e5), (1e-3, 2000.0))
+LIMIT = Plausible("the largest force on a limb", N, (1e-6, 1e5), (0.05, 2000.0))
 NOISE = Plausible("the noise of a force", N, (0.0, 1e4), (0.0, 100.0))
 ATTACHMENT = Plausible("the stiffness of an attachment", N_PER_M, (1.0, 1e7), (10.0, 1e5))
 DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (0.0, 1e4))

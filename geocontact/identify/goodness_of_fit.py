@@ -22,6 +22,8 @@ SURE = 3.0
 LARGER, FAR = 1.25, 3.0
 """Times the stated noise: from the one on a residual is doubtful, from the other it contradicts the model. Nobody knows
 the noise of a recording to better than a quarter."""
+TOO_SMALL = 0.1
+"""Times the stated noise: what is below was measured better than was stated, or the noise is in another unit."""
 AT_BOUND = 1e-3
 """Share of the width of its bounds within which a parameter is on one of them."""
 SAID = 3
@@ -150,6 +152,9 @@ def of_residual(name: str, unit: str, residual: Float[np.ndarray, " n"], noise: 
     if test.excess > SURE and test.ratio > LARGER:
         times = f"{test.ratio:.3g} times the stated noise of {noise:.3g} {unit}"
         yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}", test.ratio > FAR, test.ratio)
+    elif test.ratio < TOO_SMALL:
+        times = f"{test.ratio:.2g} times the stated noise of {noise:.3g} {unit}, and intervals are too wide by as much"
+        yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}: is that noise in its unit?", False, LARGER)
 
 
 def of_r2(name: str, r2: float) -> Iterable[Doubt]:

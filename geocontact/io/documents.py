@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -44,7 +45,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError, core_schema
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.plausible import Plausible
 from geocontact.io.text.column_names import near_names
 from geocontact.io.text.file_preflight import regular_file
@@ -176,9 +177,22 @@ class WithUnit:
             raise refusal(*wrong)
         return number * factor
 
+    def doubted(self, value: float, stated: object, info: Any) -> None:
+        """An InputWarning for a value [SI] that is unusual; `info` is pydantic's ValidationInfo."""
+        written = stated.get("value") if isinstance(stated, dict) else None
+        doubt = None if isinstance(self.known, str) else self.known.doubt(value, written)
+        if doubt is not None:
+            warnings.warn(InputWarning(f"{info.context} {info.field_name}: {doubt}"), stacklevel=2)
+
+    def validated(self, stated: object, info: Any) -> Any:
+        """What `read` makes of it, with a warning where that is unusual."""
+        value = self.read(stated)
+        self.doubted(value, stated, info)
+        return value
+
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         """A float that is read so."""
-        return core_schema.no_info_plain_validator_function(self.read)
+        return core_schema.with_info_plain_validator_function(self.validated)
 
 
 @dataclass(frozen=True)

@@ -68,6 +68,8 @@ class DeviceQuantity:
         Values in SI outside of which it is a mistake.
     what
         In words.
+    usual
+        Values in SI outside of which it is unusual; None where nobody knows.
     """
 
     unit: str
@@ -75,6 +77,7 @@ class DeviceQuantity:
     lower: float
     upper: float
     what: str
+    usual: tuple[float, float] | None = None
 
 
 MM, DEG, BAR, ONE = ("mm", 1e3), ("deg", 180.0 / np.pi), ("bar", 1e-5), ("-", 1.0)
@@ -150,6 +153,17 @@ QUANTITIES: Mapping[str, DeviceQuantity] = {
     "rounding": _length("over which friction's kink on the axis is rounded", 1e-7),
 }
 """All numbers of a device."""
+USUAL = {
+    "stop_stiffness": (5.0, 5000.0), "link_1_mass": (0.02, 3.0), "link_2_mass": (0.02, 3.0), "arm_mass": (0.05, 3.0),
+    "cylinder_mass": (0.02, 2.0), "bore": (8e-3, 0.1), "supply": (1e5, 1e6), "lag": (1e-3, 1.0),
+    "lever_a": (5e-3, 0.4), "lever_b": (5e-3, 0.4), "cuff_length": (0.03, 0.3), "cuff_radius": (0.02, 0.12),
+    "k": (100.0, 2e5), "b": (0.0, 3000.0), "mu_s": (0.05, 2.0), "mu_k": (0.05, 2.0), "delta_full": (1e-5, 0.02),
+    "pad_thickness": (1e-3, 0.05), "pad_modulus": (1e3, 1e7), "tissue_thickness": (2e-3, 0.08),
+    "tissue_modulus": (1e3, 1e6), "seal_friction": (0.0, 5.0), "passive_1_damping": (0.0, 5.0),
+    "passive_2_damping": (0.0, 5.0), "elevation_damping": (0.0, 5.0),
+}  # fmt: skip
+"""What numbers of worn devices mostly are [SI]; a unit that was mixed up lies outside."""
+QUANTITIES = {name: replace(each, usual=USUAL.get(name)) for name, each in QUANTITIES.items()}
 
 
 @dataclass(frozen=True)

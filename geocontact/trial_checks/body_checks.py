@@ -28,6 +28,8 @@ BUILD = (14.0, 50.0)
 LEG, LEG_OFF = 0.491, 0.15
 """Hip to ankle in parts of the height, thigh 0.245 and shank 0.246 (Drillis and Contini, in Winter, Biomechanics,
 2009, figure 4.1); share of it that may be missing or too much."""
+UPPER_ARM = 0.186
+"""Shoulder to elbow in parts of the height (Drillis and Contini, there); `LEG_OFF` of that height may be off."""
 PARTS = (0.75, 1.45)
 """Hip to knee in parts of knee to ankle; 0.245/0.246 there, and 422/434 mm in men, 369/432 mm in women (de Leva, J.
 Biomech. 29, 1996)."""
@@ -132,6 +134,18 @@ def build(trial: TrialInputs) -> Iterator[Contradiction]:
         if length is not None and abs(length / part / trial.height - 1.0) > LEG_OFF:
             line = f"by {what} the height is {length / part:.2f} m, it is said to be {trial.height:.2f} m"
             yield Contradiction(_source(trial), "", line, "are both of one person, and in m?")
+
+
+def build_by_arm(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Mass against the height that an upper arm belongs to."""
+    if trial.mass is None or trial.upper_arm is None or trial.height is not None:
+        return
+    height = trial.upper_arm / UPPER_ARM
+    low, high = BUILD[0] * (1.0 - LEG_OFF) ** 2, BUILD[1] * (1.0 + LEG_OFF) ** 2
+    if not low <= trial.mass / height**2 <= high:
+        what = f"is {trial.mass:.4g} kg with an upper arm of {1e3 * trial.upper_arm:.0f} mm, which belongs to a height "
+        what += f"of {height:.2f} m, {trial.mass / height**2:.0f} kg/m²"
+        yield Contradiction("", trial.mass_option, what, "are both of one person, in kg and m?")
 
 
 def _source(trial: TrialInputs) -> str:
@@ -327,6 +341,12 @@ BODY_CHECKS = (
         f"{BUILD[0]:g} to {BUILD[1]:g} kg/m² (severe thinness below 16, class III obesity from 40: WHO, TRS 894); "
         f"{LEG_OFF:.0%} of the height, hip to ankle being {LEG:g} of it (Drillis and Contini)",
         build,
+    ),
+    Check(
+        "mass and upper arm",
+        "mass with the height that the length of the upper arm belongs to",
+        f"the same, with {LEG_OFF:.0%} of the height, the upper arm being {UPPER_ARM:g} of it (Drillis and Contini)",
+        build_by_arm,
     ),
     Check(
         "thigh and shank",

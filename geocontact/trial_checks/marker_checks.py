@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -29,6 +30,13 @@ HELD = ("shoulder", "arm")
 RIGID, MOVED, FEWEST = 0.006, 0.025, 2
 """m, of standard deviation of the distance of two markers on one segment; m, by which that distance then differs from
 the standing trial; pairs of a marker that have to say so."""
+SWINGS, ENDS, LONG_ENOUGH = 0.07, 0.2, 30
+"""m, of the middle 95 % of a distance on one segment; share of the trial at either end whose medians are compared, with
+the limit `MOVED`; frames that a pair has to be seen in. Nine recordings of seven people have 27 and 14 mm at most, an
+old one whose pelvis has markers on wands 61 and 7 mm."""
+STILL_FOR, OTHERS_MOVE, SAME, MOSTLY = 10, 0.03, 1e-6, 0.9
+"""Frames for which a marker stays at one place, m that the median of the others moves meanwhile, m that are the same
+place, no digit of a file changing, and share of the trial beyond which it is a place that a model holds."""
 
 
 def _predicted(seen: MarkerTrajectories) -> tuple[Float[np.ndarray, "n m 3"], float]:
@@ -183,6 +191,77 @@ def same_person(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(moving.source, "", what, "has it been moved, or exchanged with another one?")
 
 
+def segments_keep(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Distances between markers that by their labels are on one segment, over the trial."""
+    seen = trial.markers
+    if seen is None or trial.on_sole:
+        return
+    worst: dict[str, tuple[float, str]] = {}
+    for names in _segments(seen.names):
+        i, j = np.triu_indices(len(names), 1)
+        places = seen.of(names)
+        for a, b in zip(i, j, strict=True):
+            apart = np.linalg.norm(places[:, a] - places[:, b], axis=1)
+            apart = apart[np.isfinite(apart)]
+            if len(apart) < LONG_ENOUGH:
+                continue
+            part = int(ENDS * len(apart))
+            first, last = float(np.median(apart[:part])), float(np.median(apart[-part:]))
+            low, high = np.percentile(apart, (2.5, 97.5))
+            which = f"{names[a]} and {names[b]}"
+            if abs(last - first) > MOVED:
+                line = f"{which} are {1e3 * first:.0f} mm apart at the beginning and {1e3 * last:.0f} mm at the end"
+            elif high - low > SWINGS:
+                line = f"{which} are {1e3 * low:.0f} to {1e3 * high:.0f} mm apart"
+            else:
+                continue
+            size = max(abs(last - first), float(high - low))
+            if size > worst.get(names[0], (0.0, ""))[0]:
+                worst[names[0]] = size, line
+    for _, line in worst.values():
+        remedy = "has one of them slipped, or is a label that of a marker elsewhere?"
+        yield Contradiction(seen.source, "", f"{line}, by their labels on one segment", remedy)
+
+
+def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Labels that name one segment: its landmarks, or one word with a number behind it, RTH1 and RTH2."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        kind, side = landmark(name)
+        counted = re.fullmatch(r"(.*[A-Za-z])[ _.-]?\d", name)
+        if kind in ("asis", "psis", "sacrum"):
+            found.setdefault("pelvis", []).append(name)
+        elif kind in FOOT:
+            found.setdefault(f"foot {side}", []).append(name)
+        elif kind in ("head", "knee"):
+            found.setdefault(f"{kind} {side if kind == 'knee' else ''}", []).append(name)
+        elif not kind and counted:
+            found.setdefault(counted[1].lower(), []).append(name)
+    return [tuple(each) for each in found.values() if len(each) > 1]
+
+
+def standing_still(trial: TrialInputs) -> Iterator[Contradiction]:
+    """A marker at one and the same place while the others move on."""
+    seen = trial.markers
+    if seen is None or len(seen.names) < FEWEST + 1 or len(seen) <= STILL_FOR:
+        return
+    places = seen.positions
+    same = np.abs(np.diff(places, axis=0)).max(axis=2) < SAME
+    for k, name in enumerate(seen.names):
+        if landmark(name)[0] in FOOT or same[:, k].mean() > MOSTLY:  # what a model holds where it is
+            continue
+        edges = np.flatnonzero(np.diff(np.r_[False, same[:, k], False].astype(int)))
+        for start, stop in zip(edges[::2], edges[1::2], strict=True):
+            if stop - start < STILL_FOR:
+                continue
+            moved = np.linalg.norm(np.delete(places[stop] - places[start], k, axis=0), axis=1)
+            if np.isfinite(moved).any() and float(np.nanmedian(moved)) > OTHERS_MOVE:
+                what = f"{name} stays at one place from {seen.time[start]:.2f} to {seen.time[stop]:.2f} s"
+                what += f", while others move by {1e3 * float(np.nanmedian(moved)):.0f} mm"
+                yield Contradiction(seen.source, "", what, "is a gap filled with its last place? leave gaps empty")
+                break
+
+
 def flat_foot(trial: TrialInputs) -> Iterator[Contradiction]:
     """Heel and toes of the standing trial against each other, and against the floor that is taken."""
     still = trial.standing
@@ -257,6 +336,19 @@ MARKER_CHECKS = (
         f"{1e3 * MOVED:.0f} mm, of pairs that keep their distance to {1e3 * RIGID:.0f} mm, arms left out; skin "
         "moves by 5 to 20 mm",
         same_person,
+    ),
+    Check(
+        "one segment",
+        "distances of markers that by their labels are on one segment, at both ends of the trial and over it",
+        f"{1e3 * MOVED:.0f} mm, or {1e3 * SWINGS:.0f} mm in the middle 95 %; in recordings of eight people at most 14 "
+        "and 27 mm, with markers on wands 61 mm",
+        segments_keep,
+    ),
+    Check(
+        "frozen marker",
+        "the place of a marker with those of the others",
+        f"{STILL_FOR} frames at one place while the median of the others moves by {1e3 * OTHERS_MOVE:.0f} mm",
+        standing_still,
     ),
     Check(
         "foot while standing",

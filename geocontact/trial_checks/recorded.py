@@ -113,6 +113,8 @@ class TrialInputs:
         Plates that the analysis uses.
     mass, height
         Of the person [kg, m]; None where it is not given.
+    upper_arm
+        Of the person, shoulder to elbow [m]; None where it is not given.
     mass_option
         How the user gave it, for messages: an option or a key of a file.
     stands_at
@@ -136,6 +138,7 @@ class TrialInputs:
     plates: tuple[FootPlate, ...] = ()
     mass: float | None = None
     height: float | None = None
+    upper_arm: float | None = None
     mass_option: str = "`mass`"
     stands_at: float | None = None
     floor: float | None = None

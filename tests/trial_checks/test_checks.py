@@ -200,6 +200,36 @@ def aside(by: float) -> Callable[[np.ndarray], np.ndarray]:
     return change
 
 
+def slipping(by: float) -> Callable[[np.ndarray], np.ndarray]:
+    """The right ASIS slides along the pelvis from 1 to 2.6 s [m]."""
+
+    def change(places: np.ndarray) -> np.ndarray:
+        places[:, 3, 0] += by * np.clip((TIME - 1.0) / 1.6, 0.0, 1.0)
+        return places
+
+    return change
+
+
+def held(frames: int) -> Callable[[np.ndarray], np.ndarray]:
+    """The right PSIS stays where it was at 1 s, and comes back to its course at 0.4 m/s, so that it does not jump."""
+
+    def change(places: np.ndarray) -> np.ndarray:
+        off = np.zeros_like(places[:, 4])
+        off[100 : 100 + frames] = places[100, 4] - places[100 : 100 + frames, 4]
+        for k in range(100 + frames, len(off)):
+            size = np.linalg.norm(off[k - 1])
+            off[k] = off[k - 1] * max(0.0, 1.0 - 0.004 / size) if size > 0.0 else 0.0
+        places[:, 4] += off
+        return places
+
+    return change
+
+
+def carried(kilograms: float) -> Callable[[TrialInputs], TrialInputs]:
+    """A person whose upper arm is 0.3 m long, which belongs to 1.61 m."""
+    return lambda _: TrialInputs(mass=kilograms, upper_arm=0.3)
+
+
 DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a jump of 150 mm": ("jump", lambda t: moved(t, spiked(0.15))),
     "labels exchanged half-way": ("jump", lambda t: moved(t, swapped)),
@@ -236,6 +266,9 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "the plate of the other foot": ("at rest under load", lambda t: plated(t, later(0.45))),
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
+    "a marker that slips by 40 mm": ("one segment", lambda t: moved(replace(t, standing=None), slipping(0.04))),
+    "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
+    "82 kg in pounds": ("mass and upper arm", carried(181.0)),
     **modelled.DAMAGED,
 }
 NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
@@ -253,6 +286,9 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),
     "plates 40 mm aside": lambda t: moved(t, lambda p: p + np.array([0.0, 0.0, 0.04])),
     "corners 0.25 m away": lambda t: plated(t, edged(0.25)),
+    "a marker that slips by 15 mm": lambda t: moved(replace(t, standing=None), slipping(0.015)),
+    "5 frames with the last place": lambda t: moved(replace(t, standing=None), held(5)),
+    "110 kg with an upper arm of 0.3 m": carried(110.0),
     **modelled.NEARLY,
     "walking along -x": lambda t: replace(
         plated(t, lambda p: p.turned(Rotation.from_euler("y", 180.0, degrees=True))),

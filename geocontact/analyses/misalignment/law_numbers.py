@@ -19,9 +19,12 @@ WRITTEN = {"k": "N/m", "x": "mm", "y": "mm", "l": "mm", "z": "mm", "b": "N s/m",
 STIFFENING = Plausible("stiffening by the pressure of the cuff", Unit("1/mmHg", "1/Pa", 1.0 / MMHG), (-1.0, 1.0))
 YIELDING = Plausible("the compliance of a fixation", Unit("mm/N", "m/N", 1e-3), (0.0, 1e4), (0.0, 20.0))
 LINK = Plausible("a link of an exoskeleton", mm, (20.0, 2000.0), (40.0, 800.0))
-OFFSET = Plausible("an offset of axes", mm, (-1000.0, 1000.0), (-250.0, 250.0))
-ACROSS = Plausible("the distance of the attachment from the limb's line", mm, (-1000.0, 1000.0), (-300.0, 300.0))
-STROKE = Plausible("a stroke", mm, (-1000.0, 1000.0), (-200.0, 200.0))
+OFFSET = Plausible("an offset of axes", mm, (-1000.0, 1000.0), (-250.0, 250.0), least=0.2)
+ACROSS = Plausible(
+    "the distance of the attachment from the limb's line", mm, (-1000.0, 1000.0), (-300.0, 300.0), least=15.0
+)
+"""Skin is 20 mm or more from the line of a limb."""
+STROKE = Plausible("a stroke", mm, (-1000.0, 1000.0), (-200.0, 200.0), least=1.0)
 N_M, N_M_PER_RAD = Unit("N m", "N m", 1.0), Unit("N m/rad", "N m/rad", 1.0)
 TORQUE = Plausible("the torque of an actuator of an arm", N_M, (-1000.0, 1000.0), (-100.0, 100.0))
 TURNING = Plausible("the stiffness of a cuff against turning", N_M_PER_RAD, (0.0, 1e4), (0.0, 500.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME
 from geocontact.trial_checks.recorded import UP, TrialInputs
 from geocontact.trial_checks.table import contradictions
+from geocontact.trial_checks.twice import same_recordings
 
 
 def check_trial(trial: TrialInputs) -> frozenset[str]:
@@ -31,6 +33,12 @@ def check_trial(trial: TrialInputs) -> frozenset[str]:
             raise InputError(one.source, one.place, one.what, one.remedy)
         reserve(str(one), cause=check.of_all)
     return frozenset(check.name for check, _ in found)
+
+
+def check_apart(recordings: Mapping[str, Float[np.ndarray, "*shape"]], what: str) -> None:
+    """A warning for each two recordings, by name, that are one and the same; `what` is counted wrongly then."""
+    for first, second in same_recordings(recordings):
+        reserve(f"{second}: its recording is that of {first}, sample by sample: {what}; give two different recordings")
 
 
 def turned_plates(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,10 @@ SHEAR_SHARE = 7.0 / 18.6
 UNKNOWN_BENDING = 20.0
 """EI [N m²] from which that of a keel is sought of which it is not known."""
 NAMED = ("length", "posterior", "joints", "lowest", "highest", "width", "density")
+ROUNDING = 1e-6
+"""m; of a length in mm."""
+ALONG = ("heel", "mid", "fore", "toe")
+"""Words in names of zones, from the back of a sole to its front."""
 AT_TIP = 1e-6
 """Share of the keel's length by which the last section may end beside the tip."""
 
@@ -151,6 +156,9 @@ def _keel(file: Path, d: KeelDescription) -> tuple[Keel, bool]:
         )
     except ValueError as error:
         raise InputError(file, "[keel]", str(error), "check lengths and the range of the fulcrum") from error
+    if d.posterior.value > d.lowest.value + ROUNDING:
+        what = f"the first joint, at {1e3 * d.posterior.value:g} mm, is in front of the first place of the fulcrum"
+        reserve(f"{file} [keel] posterior: {what}, {1e3 * d.lowest.value:g} mm: the keel does not bend between them")
     return keel, known
 
 
@@ -239,6 +247,7 @@ def _sole(file: Path, d: SoleDescription, keel: Keel) -> tuple[KeelSole, SoleLaw
         odd = min(set(spheres.zones) ^ set(d.zones))
         what = "has spheres and no law" if odd in spheres.zones else "has a law and no sphere"
         raise InputError(file, f"[sole.zones.{odd}]", what, f"zones of the table are {', '.join(spheres.zones)}")
+    _check_zones(file, d, spheres)
     tip = float(table.centre[:, 0].max())
     if not (table.centre[:, 0].min() >= -keel.length and tip <= 2.0 * keel.length):
         what = f"a sphere is at {1e3 * tip:.4g} mm"
@@ -268,6 +277,23 @@ def _sole(file: Path, d: SoleDescription, keel: Keel) -> tuple[KeelSole, SoleLaw
     origin["sole below"] = number_of(d.below)
     sole = KeelSole(spheres, tuple(keel.segment_of(table.centre[:, 0])))
     return sole, law, d.below.value, origin
+
+
+def _check_zones(file: Path, d: SoleDescription, spheres: SphereSet) -> None:
+    """InputError for friction that grows with sliding; a warning for zones in another order than their names say."""
+    for zone, law in d.zones.items():
+        if law.kinetic.value > law.static.value:
+            what = f"kinetic friction {law.kinetic.value:g} is larger than the static one, {law.static.value:g}"
+            raise InputError(file, f"[sole.zones.{zone}] kinetic", what, "exchange them")
+    zones = np.array(spheres.zone)
+    places = {zone: float(spheres.centre[zones == zone, 0].mean()) for zone in spheres.zones}
+    named = [(k, zone) for k, word in enumerate(ALONG) for zone in places if zone.lower().startswith(word)]
+    for (k, back), (j, front) in pairwise(named):
+        if k < j and places[back] > places[front]:
+            reserve(
+                f"{d.spheres}: zone {back} is at {1e3 * places[back]:.0f} mm, in front of {front} at "
+                f"{1e3 * places[front]:.0f} mm: are the zones in the order of the spheres, and is x forwards?"
+            )
 
 
 def _origin(d: KeelDescription, keel: Keel) -> dict[str, Number]:

@@ -58,6 +58,11 @@ def _in_range(
             ends = f"{quantity.lower * factor:g} to {quantity.upper * factor:g} {unit}"
             what = f"{each.value * factor:g} {unit} cannot be {quantity.what}"
             raise InputError(file, f"[{table}] {name}", what, f"that is {ends}")
+        if quantity.usual is not None and not quantity.usual[0] <= each.value <= quantity.usual[1]:
+            unit, factor = quantity.written
+            ends = " to ".join(f"{end * factor:g}" for end in quantity.usual)
+            what = f"{each.value * factor:g} {unit} is unusual for {quantity.what}, which mostly is {ends} {unit}"
+            reserve(f"{file} [{table}] {name}: {what}; is its unit right?")
         found[name] = Number(each.value, _source(each.source), each.note)
     return found
 

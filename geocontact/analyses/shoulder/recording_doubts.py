@@ -5,15 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.identify.goodness_of_fit import Doubt
-from geocontact.identify.signals.agreement import lag_of
+from geocontact.identify.signals.agreement import clock_off, clock_words
 from geocontact.shoulder_exoskeleton.beside_recording import ALL, ComparedChannel
 
-LONGEST = 2.0
-"""s; the largest lag that is looked at."""
-LATE = 0.15
-"""s; a lag from which a clock is doubted."""
-ALIKE, SHARPER = 0.9, 0.02
-"""Correlation at a lag, and how much it is above that without, from which a clock is doubted."""
 SIZES = 0.02
 """Sizes of the curves that differ by more than this, or its inverse, are of two units: cN, mN and kN beside N."""
 
@@ -45,11 +39,7 @@ def _likely(model: np.ndarray, measured: np.ndarray) -> str:
 
 
 def _clock(one: ComparedChannel, delay: float | None) -> str:
-    step = float(one.time[1] - one.time[0])
-    model = np.where(np.isfinite(one.measured), one.model, np.nan)
-    lag, there = lag_of(model, one.measured, step, LONGEST)
-    _, now = lag_of(model, one.measured, step, 0.0)
-    if not (abs(lag) >= LATE and there >= ALIKE and there - now >= SHARPER):
+    lag = clock_off(one.model, one.measured, float(one.time[1] - one.time[0]))
+    if lag == 0.0:
         return ""
-    words = f"the recording is {abs(lag):.2f} s {'early' if lag > 0.0 else 'late'}: is its clock right?"
-    return words if delay is None else f"{words} give `delay` {delay - lag:.2f}s"
+    return clock_words(lag) if delay is None else f"{clock_words(lag)} give `delay` {delay - lag:.2f}s"

@@ -8,7 +8,7 @@ from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.marks import Spelled, Typed
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import PLAIN, Plausible
-from geocontact.data.units import Unit
+from geocontact.data.units import Unit, percent
 from geocontact.io.text.units import ANGLE
 
 EXAMPLE = "100%"
@@ -42,4 +42,7 @@ def require_share(value: float, option: str, example: str) -> None:
 
 
 Share = Annotated[float, Typed("-", "shoulder.shared_options:level", "0.5")]
-Level = Annotated[float, Typed("-", "shoulder.shared_options:level", "0.5"), Spelled(default=EXAMPLE, dashed=True)]
+SUPPORT = Plausible("a level of support", percent, (0.0, 100.0), (5.0, 100.0), or_zero=True)
+Level = Annotated[
+    float, Typed("-", "shoulder.shared_options:level", "0.5"), Spelled(default=EXAMPLE, dashed=True), SUPPORT
+]

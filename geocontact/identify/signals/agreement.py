@@ -79,6 +79,24 @@ def agreement(
     )
 
 
+FARTHEST, LATE, ALIKE, SHARPER = 2.0, 0.15, 0.9, 0.02
+"""s, the largest lag that a clock is looked for at and the least that it is doubted from; correlation at a lag, and
+how much it is above that without, from which a clock is doubted."""
+
+
+def clock_off(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float) -> float:
+    """How much the model is late [s] where a clock that is off is likely; 0 where it is not."""
+    model = np.where(np.isfinite(measured), model, np.nan)
+    lag, there = lag_of(model, measured, step, FARTHEST)
+    _, now = lag_of(model, measured, step, 0.0)
+    return lag if abs(lag) >= LATE and there >= ALIKE and there - now >= SHARPER else 0.0
+
+
+def clock_words(lag: float) -> str:
+    """A lag of `clock_off` in words."""
+    return f"the recording is {abs(lag):.2f} s {'early' if lag > 0.0 else 'late'}: is its clock right?"
+
+
 def per_phase(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, parts: int = 10
 ) -> list[Agreement]:

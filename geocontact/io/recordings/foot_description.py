@@ -42,8 +42,8 @@ from pydantic import Field, model_validator
 
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES
-from geocontact.data.plausible import N_PER_MM, PLAIN, Plausible, S
-from geocontact.data.units import MPa, Unit, mm
+from geocontact.data.plausible import M_PER_S, N_PER_MM, N_S_PER_M, PLAIN, Plausible, S
+from geocontact.data.units import MPa, Unit, deg, mm
 from geocontact.io.documents import Document, File, Listed, Rows, Word, doubled, read_document, refusal
 from geocontact.io.recordings.shoulder_device import SourcedQuantity, StatedNumber
 from geocontact.io.text.side_table import read_side_table
@@ -71,21 +71,39 @@ def _quantity(known: str | Plausible) -> FootQuantity:
 
 N_M2, KG_PER_M3 = Unit("N m^2", "N m^2", 1.0), Unit("kg/m^3", "kg/m^3", 1.0)
 PLACE = Plausible("a place along a keel", mm, (0.0, 500.0))
-THICKNESS = Plausible("the thickness of a keel", mm, (0.3, 40.0))
-JOINTS = Plausible("the number of a keel's joints", PLAIN, (1.0, 64.0))
+THICKNESS = Plausible("the thickness of a keel", mm, (0.3, 40.0), (2.0, 15.0), why="leaves of carbon and glass fibre")
+JOINTS = Plausible("the number of a keel's joints", PLAIN, (1.0, 64.0), (2.0, 64.0))
 USUAL_JOINTS = StatedNumber(8.0, "option", "joints that stand for the beam")
-STIFFNESS = Plausible("the stiffness of a foot or of a sphere under it", N_PER_MM, (0.1, 1e4))
+STIFFNESS = Plausible("the stiffness of a foot or of a sphere under it", N_PER_MM, (0.1, 1e4), (1.0, 2000.0))
+FEET = "prosthetic feet"
+SOLE_DAMPING = Plausible(
+    "the damping of a sphere under a foot", N_S_PER_M, (0.0, 1e6), (1.0, 1e4), or_zero=True, why=FEET
+)
+SOLE_FRICTION = Plausible("a coefficient of friction of a sole", PLAIN, (0.0, 10.0), (0.1, 2.0), why=FEET)
+EXPONENT = Plausible("the exponent of the force of a sole over its depth", PLAIN, (0.3, 5.0), (0.8, 2.5))
+ABOVE_GROUND = Plausible("a depth of a sole", mm, (1e-4, 500.0), (0.05, 20.0))
+CREEP = Plausible("the speed below which a sole sticks", M_PER_S, (1e-6, 10.0), (1e-4, 0.2))
+GAUGE = Plausible("the standard deviation of a measured deflection", mm, (0.0, 500.0), (1e-3, 1.0), or_zero=True)
+PRESSED = Plausible("how far a sole is compressed", mm, (0.0, 500.0), (0.5, 30.0))
+TILTED = Plausible("the tilt of a plate against a sole", deg, (-90.0, 90.0), (0.0, 45.0))
+SPREAD = Plausible("the standard deviation of a foot's stiffness", N_PER_MM, (0.0, 1e4), (0.001, 50.0))
 
 Length = Annotated[StatedNumber, _quantity(PLACE)]
 Keel = Annotated[StatedNumber, _quantity(Plausible("the length of a keel", mm, (50.0, 500.0)))]
-Width = Annotated[StatedNumber, _quantity(Plausible("the width of a keel", mm, (5.0, 200.0)))]
+Width = Annotated[StatedNumber, _quantity(Plausible("the width of a keel", mm, (5.0, 200.0), (20.0, 120.0)))]
 Thickness = Annotated[StatedNumber, _quantity(THICKNESS)]
-Density = Annotated[StatedNumber, _quantity(Plausible("the density of a keel", KG_PER_M3, (100.0, 2e4)))]
-Bending = Annotated[StatedNumber, _quantity(Plausible("EI or GJ of a keel", N_M2, (0.1, 1e3)))]
+Density = Annotated[
+    StatedNumber, _quantity(Plausible("the density of a keel", KG_PER_M3, (100.0, 2e4), (500.0, 9000.0)))
+]
+Bending = Annotated[StatedNumber, _quantity(Plausible("EI or GJ of a keel", N_M2, (0.1, 1e3), (1.0, 300.0)))]
 Stiffness = Annotated[StatedNumber, _quantity(STIFFNESS)]
-Modulus = Annotated[StatedNumber, _quantity(Plausible("a modulus of a keel's material", MPa, (10.0, 1e6)))]
-Retardation = Annotated[StatedNumber, _quantity(Plausible("the retardation of a keel's material", S, (0.0, 1.0)))]
-Share = Annotated[StatedNumber, _quantity("-")]
+Modulus = Annotated[
+    StatedNumber, _quantity(Plausible("a modulus of a keel's material", MPa, (10.0, 1e6), (500.0, 3e5)))
+]
+Retardation = Annotated[
+    StatedNumber, _quantity(Plausible("the retardation of a keel's material", S, (0.0, 1.0), (1e-5, 0.1), or_zero=True))
+]
+Friction = Annotated[StatedNumber, _quantity(SOLE_FRICTION)]
 
 
 class KeelSection(Document):
@@ -167,9 +185,9 @@ class SoleZone(Document):
     """
 
     stiffness: Stiffness
-    damping: Annotated[StatedNumber, _quantity("N s/m")]
-    static: Share
-    kinetic: Share
+    damping: Annotated[StatedNumber, _quantity(SOLE_DAMPING)]
+    static: Friction
+    kinetic: Friction
 
 
 class SoleDescription(Document):
@@ -197,9 +215,9 @@ class SoleDescription(Document):
     spheres: File
     source: Literal["paper", "derived", "invented"] = "derived"
     below: Length
-    exponent: Share | None = None
-    full_depth: Length | None = None
-    threshold_speed: Annotated[StatedNumber, _quantity("m/s")] | None = None
+    exponent: Annotated[StatedNumber, _quantity(EXPONENT)] | None = None
+    full_depth: Annotated[StatedNumber, _quantity(ABOVE_GROUND)] | None = None
+    threshold_speed: Annotated[StatedNumber, _quantity(CREEP)] | None = None
     zones: dict[str, SoleZone]
 
 
@@ -226,7 +244,7 @@ class Compression(Document):
     sought: bool = False
     curve: File | None = None
     stiffness: Stiffness | None = None
-    sd: Annotated[StatedNumber, _quantity("N/m")] | None = None
+    sd: Annotated[StatedNumber, _quantity(SPREAD)] | None = None
 
     @model_validator(mode="after")
     def _require_one_of_each(self) -> Compression:
@@ -257,10 +275,10 @@ class Bench(Document):
     """
 
     at: Length | None = None
-    noise: Length | None = None
+    noise: Annotated[StatedNumber, _quantity(GAUGE)] | None = None
     series: Stiffness | None = None
-    tilt: Annotated[StatedNumber, _quantity("rad")] | None = None
-    travel: Length | None = None
+    tilt: Annotated[StatedNumber, _quantity(TILTED)] | None = None
+    travel: Annotated[StatedNumber, _quantity(PRESSED)] | None = None
 
 
 class FootDescription(Document):

@@ -46,10 +46,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
-from geocontact.data.plausible import KG, Plausible
+from geocontact.data.plausible import KG, N, Plausible
 from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
 
 WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
+TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)
+PUSH = Plausible("the force of a person on the work", N, (0.0, 2000.0), (5.0, 400.0), or_zero=True)
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
 """Lengths of a person, to which a device is adjusted."""
 Length = Annotated[float, WithUnit("m")]
@@ -89,8 +91,8 @@ class StudyTask(Document):
         Part of it that the dominant hand exerts; `optimise` only, which has an option for it.
     """
 
-    tool: Annotated[float, WithUnit("kg"), Field(ge=0.0)]
-    push: Annotated[float, WithUnit("N"), Field(ge=0.0)]
+    tool: Annotated[float, WithUnit(TOOL)]
+    push: Annotated[float, WithUnit(PUSH)]
     push_direction: Annotated[tuple[float, float, float], PlainValidator(_direction), Holds("[x, y, z]")] = UPWARDS
     dominant_share: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
 

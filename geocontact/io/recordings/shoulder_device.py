@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import GetCoreSchemaHandler, create_model
-from pydantic_core import CoreSchema, core_schema
+from pydantic import create_model
 
 from geocontact.data.errors import InputError
 from geocontact.io.documents import Document, Some, WithUnit, Word, checked, refusal
@@ -46,9 +45,11 @@ class SourcedQuantity(WithUnit):
             raise refusal(f"source {source!r:.60} is not known", f"write one of {', '.join(self.sources)}")
         return StatedNumber(value, source, str(stated.get("note", "")))
 
-    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """A number that is read so."""
-        return core_schema.no_info_plain_validator_function(self.sourced)
+    def validated(self, stated: object, info: Any) -> StatedNumber:
+        """What `sourced` makes of it, with a warning where that is unusual."""
+        found = self.sourced(stated)
+        self.doubted(found.value, stated, info)
+        return found
 
 
 class DeviceDescription(Document):

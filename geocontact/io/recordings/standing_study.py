@@ -30,11 +30,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
-from geocontact.data.plausible import KG, Plausible
+from geocontact.data.plausible import KG, N_M, N, Plausible
 from geocontact.data.text import same_place
-from geocontact.data.units import m
+from geocontact.data.units import Unit, deg, m, mm
 from geocontact.io.documents import (
     Document,
     File,
@@ -51,9 +51,18 @@ from geocontact.io.documents import (
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
-NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
-"""SI units of the standard deviations."""
-Deviation = {name: Annotated[float, WithUnit(unit), Field(gt=0.0)] for name, unit in NOISE.items()}
+TURNS = Unit("rad/s", "rad/s", 1.0)
+NOISE = {
+    "length": Plausible("the standard deviation of a place", mm, (1e-4, 1000.0), (0.01, 20.0)),
+    "angle": Plausible("the standard deviation of an angle", deg, (1e-5, 180.0), (0.01, 10.0)),
+    "rate": Plausible("the standard deviation of a rate", TURNS, (1e-7, 100.0), (1e-4, 1.0)),
+    "force": Plausible("the standard deviation of a force", N, (1e-5, 1e4), (0.05, 50.0)),
+    "centre": Plausible("the standard deviation of a centre of pressure", mm, (1e-4, 1000.0), (0.05, 50.0)),
+    "torque": Plausible("the standard deviation of a torque", N_M, (1e-5, 1e4), (0.01, 50.0)),
+    "strap": Plausible("the standard deviation of a strap's force", N, (1e-5, 1e4), (0.05, 50.0)),
+}
+"""What the standard deviations of one sample can be: instruments have the lower ends, soft tissue the upper ones."""
+Deviation = {name: Annotated[float, WithUnit(known)] for name, known in NOISE.items()}
 Time = Annotated[float, WithUnit("s", bare=True)]
 Weighed = {
     name: Annotated[float, WithUnit(unit, bare=True), Field(gt=0.0)]

@@ -10,11 +10,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.misalignment.compare.options import CompareOptions
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, key_of
 from geocontact.analyses.misalignment.page import CONSTRAINT
-from geocontact.analyses.misalignment.recordings import recordings
+from geocontact.analyses.misalignment.recordings import SLID, recordings
 from geocontact.axis_misalignment.law import NAMES
 from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.data.elbow_recording import ElbowRecording
@@ -75,6 +75,9 @@ def read(o: CompareOptions) -> Both:
         return Both(measured, recordings("simulated", o.simulated or (), None, o.angles, o.unit, None))
     law = _law(o.fit)
     add_input("`fit`", o.fit)
+    for path, r in zip(o.recordings, measured, strict=True):
+        if o.stroke is not None and (r.displacement is None or float(np.ptp(r.displacement)) < SLID):
+            reserve(f"{path}: no displacement of its joint was recorded, or it does not slide: was it locked? `stroke`")
     return Both(measured, law)
 
 

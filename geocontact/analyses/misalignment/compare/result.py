@@ -33,6 +33,7 @@ from geocontact.analyses.misalignment.compare.pairs import (
 )
 from geocontact.analyses.misalignment.compare.show import channel_curves, comparison_page
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_many_r2
+from geocontact.identify.signals.agreement import clock_off, clock_words
 from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.curves.drawn import drawn
 from geocontact.view.page.tables import frame_table
@@ -116,6 +117,9 @@ def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
         asked = ": is a sign turned?" if turned else ""
         found = of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine})
         doubts += [replace(each, what=f"{each.what}{asked}") for each in found]
+        for p in mine:
+            if lag := clock_off(p.model, p.measured, float(p.time[1] - p.time[0])):
+                doubts.append(Doubt(f"{p.trial}, {channel}: {clock_words(lag)}", False, abs(lag)))
     return GoodnessOfFit(tuple(doubts), tuple(f"{p.trial}, {p.channel}" for p in pairs))
 
 

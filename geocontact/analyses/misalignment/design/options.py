@@ -16,7 +16,7 @@ from geocontact.analyses.misalignment.shared_options import (
     require_span,
     require_stroke,
 )
-from geocontact.data.plausible import ATTACHMENT, LIMIT, SHIFT, Plausible
+from geocontact.data.plausible import ATTACHMENT, LIMIT, Plausible
 from geocontact.data.units import mm
 
 Offset = Annotated[
@@ -26,6 +26,7 @@ Offset = Annotated[
     OFFSET,
 ]
 REACH = Plausible("how far a map goes", mm, (0.1, 1000.0), (2.0, 300.0))
+UNSURE = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0), least=0.2)
 STEP = Plausible("the step of a map", mm, (0.001, 500.0), (0.05, 50.0))
 
 
@@ -74,7 +75,7 @@ class DesignOptions(Options):
     limit: Annotated[float, LIMIT]
     stroke: Stroke | None = None
     offset: Offset = (0.0, 0.0)
-    uncertainty: Annotated[Millimetres, Spelled("uncertainty-mm", "uncertainty_mm"), SHIFT] = 0.0
+    uncertainty: Annotated[Millimetres, Spelled("uncertainty-mm", "uncertainty_mm"), UNSURE] = 0.0
     map: Annotated[Millimetres, Spelled("map-mm", "map_mm", default=60.0), REACH] = 60e-3
     step: Annotated[Millimetres, Spelled("step-mm", "step_mm", default=2.0), STEP] = 2e-3
     drift: Drift | None = None

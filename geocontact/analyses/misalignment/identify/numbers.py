@@ -23,7 +23,8 @@ from geocontact.analyses.misalignment.identify.fitted import Fitted, Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.tracking import read_scores
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
-from geocontact.analyses.misalignment.recordings import recordings
+from geocontact.analyses.misalignment.recordings import SLID, recordings
+from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.axis_misalignment import bins, compensation, explicit, known_by_sensor, least_squares, uncertainty
 from geocontact.axis_misalignment.law import ABSENT, NAMES, UNITS
 from geocontact.data.elbow_recording import ElbowRecording
@@ -114,7 +115,6 @@ def _refuse_values(known: Values, prior: Pairs, bounds: Pairs, start: Values) ->
             raise InputError("", "`bounds`", f"{name} may not be 0 or less", "give a lower bound above 0")
 
 
-SLID = 0.5e-3  # m; a locked joint does not move as far
 SAME_PRESSURE = MMHG  # Pa; pressures that differ by less are one
 
 
@@ -142,6 +142,10 @@ def read(o: IdentifyOptions) -> IdentifyInputs:
     _require_locked(o.held_out or (), apart)
     free = _recordings("unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
     _require_free(o.unlocked or (), free)
+    check_apart(
+        {r.name: np.column_stack([r.beta, r.force]) for r in (*locked, *apart, *free)},
+        "intervals are too short, and errors of what is held out too small",
+    )
     scores = read_scores(o.scores, [*locked, *apart, *free])
     return IdentifyInputs(parameters, locked, apart, free, scores)
 

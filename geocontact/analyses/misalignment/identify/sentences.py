@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,10 +16,13 @@ from geocontact.analyses.misalignment.law_numbers import MMHG, NUMBERS, with_uni
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS, SCALED
+from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.data.plausible import Plausible
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2, of_size
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
+from geocontact.identify.signals.agreement import clock_off, clock_words
+from geocontact.identify.signals.filters import even_times
 
 FEW_STRETCHES = 12
 OWN = 0.1  # of what c does to the force; less is called hardly separable from the cuff
@@ -69,8 +72,24 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
             ends = each.profile.lower, each.profile.upper
             doubts += of_size(each.words, ends, known)
     doubts += doubts_of(found.beside)
+    doubts += _of_clocks(found)
     others = [each.measured.name for each in found.beside.sensors]
     return GoodnessOfFit(tuple(doubts), ("force", *others, *(each.name for each in found.held)))
+
+
+def _of_clocks(found: Fitted) -> Iterator[Doubt]:
+    """Trials whose force comes earlier or later than the law makes it along the recorded angle."""
+    numbers = found.estimate.named
+    for r in found.recordings:
+        pressure = 0.0 if r.pressure is None else r.pressure - found.data.pressure
+        try:
+            force, _ = ideal(r.time, r.beta, numbers, pressure=pressure)
+        except ValueError:  # a pole, of which the law itself is doubted
+            continue
+        time, step = even_times(r.time)
+        if lag := clock_off(*(np.interp(time, r.time, each) for each in (force, r.force)), step):
+            words = f"{r.name}, force: {clock_words(lag)} Or is damping b missing? see `free`"
+            yield Doubt(words, False, abs(lag))
 
 
 def _doubt_displacement(found: Fitted, free: Free) -> None:

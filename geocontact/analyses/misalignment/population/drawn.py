@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from geocontact.analyses.misalignment.planar import STATES, WITHOUT_FORCE, axis_
 from geocontact.analyses.misalignment.population.options import PopulationOptions
 from geocontact.axis_misalignment.axis_drift import AxisDrift
 from geocontact.axis_misalignment.design import QUANTITIES, Exposure, peak_forces
+from geocontact.axis_misalignment.law import LENGTHS
 from geocontact.axis_misalignment.planar_joint import SOUND, STEP
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import numbers_in
@@ -86,6 +87,57 @@ def _check_sizes(description: Path, told: PopulationFile) -> None:
                 raise InputError(description, place, *refusal)
             if doubt := known.doubt(number, written):
                 reserve(f"{description} {place}: {doubt}")
+    for name, one in told.quantities.items():
+        for line in _doubtful_spread(name, one.kind, one.numbers):
+            reserve(f"{description} [{name}] {line}")
+    for columns in told.tables.values():
+        for line in _doubtful_people(columns):
+            reserve(f"{description} {line}")
+
+
+LEAST_SD = 1e-4
+"""m; nobody measures lengths of people and devices better."""
+CUT = 0.1
+"""Share of a normal distribution beyond its bounds, from which it is another one than its mean and deviation say."""
+REPEATED, OTHER_UNIT, PEOPLE = 0.5, 20.0, 5
+"""Share of a table's rows that are alike, times the median that a positive number is off, and rows, from which it is
+said: no two people are alike to the last digit."""
+
+
+def _doubtful_spread(name: str, kind: str, numbers: Mapping[str, float]) -> Iterator[str]:
+    """A deviation that is a variance, or in another unit."""
+    if kind != "normal":
+        return
+    mean, sd = numbers["mean"], numbers["sd"]
+    if name in LENGTHS and sd < LEAST_SD and not _wide(numbers):
+        yield f"sd: {1e3 * sd:.3g} mm is less than lengths are measured to; is it in m?"
+    lower = max(numbers.get("lower", -math.inf), 0.0 if name == "k" else -math.inf)
+    inside = _below((numbers.get("upper", math.inf) - mean) / sd) - _below((lower - mean) / sd)
+    if 1.0 - inside > CUT:
+        what = f"{1.0 - inside:.0%} of the normal distribution lie beyond what {name} can be or its bounds"
+        yield f"sd: {what}; is it a standard deviation, and not a variance, and are the bounds in the same unit?"
+
+
+def _below(z: float) -> float:
+    """Share of a normal distribution below z standard deviations."""
+    return 0.5 * (1.0 + math.erf(z / math.sqrt(2.0)))
+
+
+def _doubtful_people(columns: Mapping[str, Float[np.ndarray, " m"]]) -> Iterator[str]:
+    """Rows of a table that repeat one person, and a number of another unit than the others."""
+    rows = np.column_stack(list(columns.values()))
+    if len(rows) < PEOPLE:
+        return
+    several = len(rows) - len(np.unique(rows, axis=0)) + 1
+    if several > REPEATED * len(rows):
+        yield f"table: {several} of {len(rows)} people are alike in {', '.join(columns)}; is a row repeated?"
+    for name, values in columns.items():
+        middle = float(np.median(values))
+        if middle > 0.0 and name in ("k", "l"):
+            off = np.flatnonzero((values < middle / OTHER_UNIT) | (values > middle * OTHER_UNIT))
+            for row in off[:1]:
+                what = f"{name} of person {row + 1} is {values[row] / middle:.2g} times the median of all"
+                yield f"table: {what}; is it in the column's unit?"
 
 
 def _wide(numbers: Mapping[str, float]) -> set[str]:

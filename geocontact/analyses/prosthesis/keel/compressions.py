@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.analyses.prosthesis.foot_file import SHIPPED, FootFile, keep_inputs, number_of, read_foot
 from geocontact.analyses.prosthesis.foot_writer import quantity
 from geocontact.analyses.prosthesis.keel.options import ProsthesisKeelOptions
@@ -74,6 +75,8 @@ def read(o: ProsthesisKeelOptions) -> CompressedFoot:
     if not noise > 0.0:
         raise InputError(file, "[bench] noise", "is 0: no deflection is measured so well", "give what the gauge has")
     measured = tuple(_measured(file, one, given, noise) for one in given.described.compressions)
+    curves = {one.name: np.column_stack([one.force, one.deflection]) for one in measured if one.curve}
+    check_apart(curves, "two settings have one stiffness")
     return CompressedFoot(
         file,
         given,

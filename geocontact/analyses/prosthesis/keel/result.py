@@ -50,6 +50,8 @@ PLACES = 35
 """Fulcrums at which the stiffness is shown."""
 MISSED = 0.05
 """Share of a stiffness by which the sole may miss it."""
+STATED_OFF = 1.5
+"""Times that an EI of the file may be off the one that its compressions have."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -215,6 +217,10 @@ def fit_of(given: CompressedFoot, beam: IdentifiedKeel, sole: IdentifiedSole) ->
     if len(single) > 1 and beam.freedom > 0:
         tested.append("stiffnesses")
         doubts += of_residual("stiffnesses", "standard deviations", np.array(single), 1.0)
+    stated = given.given.foot.keel.bending
+    if given.given.known and not 1.0 / STATED_OFF < beam.keel.bending / stated < STATED_OFF:
+        what = f"EI of the file, {stated:.3g} N m², is not that of its compressions, {beam.keel.bending:.3g} N m²"
+        doubts.append(Doubt(f"{what}: check bending, or modulus, width and thickness", False))
     low, high = given.given.foot.keel.range
     ends = {one.name: (one.value, low, high) for one in beam.numbers if one.unit == "m"}
     if given.series is None:

@@ -14,6 +14,7 @@ from geocontact.analyses.motion.markers import markers_given, renamed_as_told, t
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import push_force, tool_current
+from geocontact.analyses.shoulder.study_checks import check_study, doubt_share
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
@@ -65,12 +66,14 @@ class WorkersAndDevice:
 def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     """Everything the options name."""
     device = device_named(o.device)
+    doubt_share(o.dominant_share, "`dominant_share`")
     if o.study is None:
         reserve(SYNTHETIC)
         arms = all_arms(dominant_share=o.dominant_share, cutoff=o.cutoff)
         return WorkersAndDevice(tuple(arms), device, support_of(device))
     study = read_overhead_study(o.study)
     add_input("`study`", o.study, persons=len(study.persons), trials=len(study.trials))
+    check_study(study, o.study, o.c3d_unit)
     bare = [trial for trial in study.trials if trial.level is None]
     if not bare:
         reserve("every trial was recorded in the device: the shoulder's torque is for arms that it supported")

@@ -89,6 +89,8 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     _doubt_upright(o, found.arms)
     time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
+    if tool is not None:
+        doubt_tool(o.tool or o.markers, tool, found.arms)
     return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, device, time))
 
 
@@ -107,6 +109,19 @@ def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> N
         if raised > RAISED:
             what = f"the {arm.side} arm is {np.degrees(raised):.0f} degrees up then"
             reserve(f"`upright`: {what}: is that a stance, and not the middle of the work?")
+
+
+HANGING = 0.2
+"""Share of the time that the tool runs, for which no arm is raised, from which its clock is doubted."""
+
+
+def doubt_tool(file: Path, tool: Bool[np.ndarray, " t"], arms: Sequence[ArmMotion]) -> None:
+    """A warning where the tool runs while no arm is raised, in work overhead."""
+    raised = np.max([arm.elevation for arm in arms], axis=0) > RAISED
+    share = float(np.mean(~raised[tool])) if tool.any() else 0.0
+    if share > HANGING and raised.any():
+        what = f"it runs while no arm is raised by {np.degrees(RAISED):.0f} degrees for {share:.0%} of the time it runs"
+        reserve(f"{file} `tool`: {what}; is its clock that of the markers, and 1 what runs?")
 
 
 def controllers(

@@ -13,10 +13,11 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
-from geocontact.analyses.shoulder.shared_options import level
+from geocontact.analyses.shoulder.shared_options import SUPPORT, level
 from geocontact.analyses.shoulder.simulate.arms import Worn, worn_along
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.study.options import StudyOptions
+from geocontact.analyses.shoulder.study_checks import check_study
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
@@ -56,6 +57,7 @@ def read(o: StudyOptions) -> tuple[StudyTrialInputs, ...]:
     """Every trial with a level; InputError where there is none."""
     study = read_overhead_study(o.study)
     add_input("study", o.study, trials=len(study.trials))
+    check_study(study, o.study, o.c3d_unit)
     found = tuple(_trial(study, each, share, o) for each in study.trials if (share := _level(each, o)) is not None)
     if not found:
         raise InputError(o.study, "[[trials]]", "none was recorded in the device", 'write level = "100%" into those')
@@ -68,6 +70,8 @@ def _level(trial: StudyTrial, o: StudyOptions) -> float | None:
     share = level(trial.level, f"{o.study.name} [[trials]] {trial.name} level")
     if not 0.0 <= share <= 1.0:
         raise InputError(o.study, f"[[trials]] {trial.name}", f"level is {trial.level}", "give 0 to 100%")
+    if doubt := SUPPORT.doubt(share):
+        reserve(f"{o.study} [[trials]] {trial.name} level: {doubt}")
     return share
 
 
