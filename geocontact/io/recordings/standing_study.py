@@ -21,7 +21,8 @@
 Files are looked for beside the description. With `sitting = true` a trial begins while the person still sits, and the
 chair's force is a load on the model. With `exoskeleton = true` a trial also has `torques` and at least one of the
 straps, whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x
-forwards. A list of files, such as mats in front and behind, has the sum of their forces.
+forwards. A list of files, such as mats in front and behind, has the sum of their forces. `shear [N]` in the thigh's is
+the measured force along it, which is compared with the predicted one.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ from geocontact.io.documents import (
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
-NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m", "torque": "N m", "strap": "N"}
+NOISE = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m"}
+NOISE |= {"torque": "N m", "strap": "N", "shear": "N"}
 """SI units of the standard deviations."""
 Deviation = {name: Annotated[float, WithUnit(unit), Field(gt=0.0)] for name, unit in NOISE.items()}
 Time = Annotated[float, WithUnit("s", bare=True)]
@@ -71,7 +73,8 @@ class StandingTrialFiles(Document):
     torques
         Torques of all joints of both legs: .sto, [N m].
     strap
-        Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan.
+        Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan; with
+        load cells or a two-axis mat also `shear [N]`, along the thigh, towards the hip, which is compared only.
     strap_shank, strap_pelvis
         The same of further straps; the pelvis has the force of the whole module.
     feet, chair

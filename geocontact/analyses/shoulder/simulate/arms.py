@@ -241,6 +241,7 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
         "supporting [N]": told["in_cuff"][:, 2],
         "normal [N]": told["pressing"][:, 0],
         "shear [N]": s.shear,
+        "shear around [N]": s.shear_around,
         "sliding along [mm/s]": slide[:, 0],
         "sliding across [mm/s]": np.hypot(slide[:, 1], slide[:, 2]),
         "slip [mm]": 1e3 * s.slip,
