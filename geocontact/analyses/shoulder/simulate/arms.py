@@ -54,7 +54,7 @@ class Worn:
         Filtered, without gaps, at even times.
     frame
         The device in the laboratory at the same times.
-    markers
+    markers, names
         All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
     tool
         Whether the tool runs; None where nobody told.
@@ -65,6 +65,7 @@ class Worn:
     arms: tuple[ArmMotion, ...]
     frame: DeviceFrame
     markers: Float[np.ndarray, "t m 3"]
+    names: tuple[str, ...]
     device: Device
     wearer: Wearer
     tool: Bool[np.ndarray, " t"] | None
@@ -89,7 +90,8 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     _doubt_upright(o, found.arms)
     time = found.arms[0].time
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
-    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, device, time))
+    led = controllers(o, device, time)
+    return Worn(found.arms, found.frame, found.markers, seen.names, device, wearer, tool, led)
 
 
 RAISED = np.radians(60.0)
