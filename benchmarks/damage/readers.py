@@ -78,7 +78,7 @@ def _device(path: Path) -> Any:
     from geocontact.data.parameter import SOURCES
     from geocontact.io.recordings.shoulder_device import read_device_file
 
-    return read_device_file(path, UNITS, CONTROLLER_UNITS, SOURCES)
+    return read_device_file(path, UNITS, CONTROLLER_UNITS, SOURCES, HINGE_UNITS)
 
 
 def _contact_parameters(path: Path) -> Any:
