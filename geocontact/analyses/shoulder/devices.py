@@ -83,8 +83,11 @@ def _in_range(
     return found
 
 
-def wearer_named(file: Path | None) -> Wearer:
-    """Lengths of the person in a file; the usual ones where it does not tell them, or there is none."""
+def wearer_named(file: Path | None, *, back: bool = False) -> Wearer:
+    """Lengths of the person in a file; the usual ones where it does not tell them, or there is none.
+
+    A warning for a torso, which moves no arm, unless the loads of the lower `back` are asked for.
+    """
     if file is None:
         usual = Wearer()
         reserve(
@@ -92,7 +95,10 @@ def wearer_named(file: Path | None) -> Wearer:
             f"{1e3 * usual.shoulder_width:.0f} mm wide (invented)"
         )
         return usual
-    found = wearer_of_lengths(file, read_person_file(file, LENGTHS))
+    lengths = read_person_file(file, LENGTHS)
+    found = wearer_of_lengths(file, lengths)
+    if "torso" in lengths and not back:
+        reserve(f"{file.name}: torso changes no arm and no force: it is drawn, and places the lower back with `mass`")
     add_input("`person`", file)
     return found
 

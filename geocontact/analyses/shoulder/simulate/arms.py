@@ -74,7 +74,7 @@ class Worn:
 
 def read(o: ShoulderSimulateOptions) -> Worn:
     """Everything the options name."""
-    return worn_along(o, wearer_named(o.person))
+    return worn_along(o, wearer_named(o.person, back=o.mass is not None))
 
 
 def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:

@@ -38,6 +38,7 @@ from geocontact.analyses.shoulder.simulate.arms import (
     summary_of,
 )
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
+from geocontact.analyses.shoulder.simulate.marker_band import MarkerBand, band_table, marker_bands
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.person_answers import (
     PersonAnswers,
@@ -73,6 +74,8 @@ class ShoulderSimulateResult(Result):
         By side, where they were asked for.
     person
         What the person carries without and with the device; None where the mass is not stated.
+    bands
+        Of each arm under errors of its markers, where they were asked for.
     """
 
     options: ShoulderSimulateOptions
@@ -83,6 +86,7 @@ class ShoulderSimulateResult(Result):
     wearer: Wearer
     influences: Mapping[Side, tuple[Influence, ...]]
     person: PersonAnswers | None = None
+    bands: tuple[MarkerBand, ...] = ()
 
     @property
     def time(self) -> dict[str, Float[np.ndarray, " t"]]:
@@ -106,7 +110,7 @@ class ShoulderSimulateResult(Result):
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`right` and `left` over time, `numbers` of the device, `levers` of its cylinder, `sensitivity`,
-        `at_elevation` and `person` where they were asked for.
+        `at_elevation`, `person` and `marker_band` where they were asked for.
         """
         told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
         told["numbers"] = numbers_table(self.device, controlled=self.options.profile is not None)
@@ -116,6 +120,8 @@ class ShoulderSimulateResult(Result):
         if self.influences:
             parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
+        if self.bands:
+            told["marker_band"] = band_table(self.bands)
         if self.person is not None:
             told["person"] = person_table(self.person)
         return told
@@ -162,7 +168,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
     arms = tuple(simulated_along(worn, arm, o) for arm in worn.arms)
     say_reached(arms, o.elevations or ())
     note("arms", plain({each.side: summary_of(each) for each in arms}))
-    person = person_answers(worn, arms, o)
+    person, bands = person_answers(worn, arms, o), marker_bands(worn, arms, o)
     found = {
         each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
         for each in (arms if o.sensitivity else ())
@@ -176,6 +182,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
         wearer=worn.wearer,
         influences=found,
         person=person,
+        bands=bands,
     )
 
 
