@@ -134,7 +134,8 @@ class ShoulderSimulateOptions(Options):
     Writes right.csv and left.csv, numbers.csv with the source of every number of the device, levers.csv with length and
     lever of its cylinder, person.csv with `mass`, marker_band.csv with `marker_error`, sensitivity.csv with
     `sensitivity`, at_elevation.csv with `elevations`, angles.sto, interface_forces.mot and .xml (external loads for
-    OpenSim and `geocontact id`), paraview, plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
+    OpenSim and `geocontact id`), paraview, plane (for `geocontact gap gather`), a figure, report.html (moving arms with
+    forces) and run.json into OUT.
     """
 
     markers: Path
