@@ -74,11 +74,11 @@ def _population(path: Path) -> Any:
 
 
 def _device(path: Path) -> Any:
-    from geocontact.analyses.shoulder.devices import CONTROLLER_UNITS, UNITS
+    from geocontact.analyses.shoulder.devices import CONTROLLER_UNITS, HINGE_UNITS, UNITS
     from geocontact.data.parameter import SOURCES
     from geocontact.io.recordings.shoulder_device import read_device_file
 
-    return read_device_file(path, UNITS, CONTROLLER_UNITS, SOURCES)
+    return read_device_file(path, UNITS, CONTROLLER_UNITS, SOURCES, HINGE_UNITS)
 
 
 def _contact_parameters(path: Path) -> Any:

@@ -94,8 +94,9 @@ def pressed_cells(
     cuff: tuple[np.ndarray, np.ndarray, np.ndarray],
     law: np.ndarray,
     pressed: float,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Torque of the arm on each joint [N m], and the normal force at each cell (a, b) [N].
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Torque of the arm on each joint [N m], the normal force at each cell (a, b) [N], and the sums over the cells of
+    their shear on the arm along the cuff, towards the hand, and around it, from medial towards raising [N].
 
     Parameters
     ----------
@@ -119,6 +120,7 @@ def pressed_cells(
     joint_speed = cross(axes[0], origin - places[0]) * u[0] + cross(axes[1], origin - places[1]) * u[1]
     turning = cross(along, along_rate)
     total, moment, pressing = np.zeros(3), np.zeros(3), np.zeros((len(rings), len(around)))
+    rubbing = np.zeros(2)
     out, lever, velocity, force = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     around_axis = radius * (turning - spin)
     for i in range(len(rings)):
@@ -146,12 +148,14 @@ def pressed_cells(
             for c in range(3):
                 force[c] = -normal * (out[c] + mu / size * (velocity[c] - closing * out[c]))
                 total[c] += force[c]
+                rubbing[0] += force[c] * distal[c]
+                rubbing[1] += force[c] * (around[j, 0] * raising[c] - around[j, 1] * medial[c])
             add_cross(moment, lever, force)
             pressing[i, j] = normal
     torque = np.empty(3)
     for joint in range(3):
         torque[joint] = -axes[joint] @ (moment + cross(origin - places[joint], total))
-    return torque, pressing
+    return torque, pressing, rubbing
 
 
 @compiled

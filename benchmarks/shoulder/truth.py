@@ -74,6 +74,9 @@ class Measured:
         What these press the arm up with [N]: exact.
     mat
         The same as measured, with noise and steps [N].
+    normal, shear
+        Exact sum of all cells' normal forces [N], and of their shear on the arm along the cuff and around it (t, 2)
+        [N], as a two-axis mat all around the arm shows them; None where nobody made them.
     """
 
     time: np.ndarray
@@ -82,6 +85,8 @@ class Measured:
     cells: np.ndarray
     force: np.ndarray
     mat: np.ndarray
+    normal: np.ndarray | None = None
+    shear: np.ndarray | None = None
 
 
 class Truth:
@@ -129,8 +134,10 @@ class Truth:
         lag = (self.push * w["factor"] - force) / self.device["lag"]
         return np.concatenate([u, np.linalg.solve(mass, joint - bias), [lag]])
 
-    def contact(self, frames: Bodies, u: np.ndarray, w: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """Torque of the arm on each joint [N m], and the normal force at each cell (a, b) [N]."""
+    def contact(
+        self, frames: Bodies, u: np.ndarray, w: dict[str, np.ndarray]
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Torque of the arm on each joint [N m], normal force at each cell (a, b) [N], shear along and around [N]."""
         d, more = self.device, self.withheld
         law = (0.5 * d["cuff_length"], d["cuff_radius"], more.strap - more.gap, d["delta_full"], self.k, self.b)
         arm = (w["place"], w["rate"], w["along"], w["along_rate"])
@@ -181,13 +188,15 @@ def measure(
     angles = found.y[:3].T
     under = truth.around[:, 1] < 0.0
     cells = np.empty((len(time), ALONG, int(under.sum())))
-    force = np.empty(len(time))
+    force, normal, shear = np.empty(len(time)), np.empty(len(time)), np.empty((len(time), 2))
     for k, t in enumerate(time):
-        pressing = truth.contact(truth.frames(angles[k]), found.y[3:6, k].copy(), inputs(t))[1]
+        _, pressing, shear[k] = truth.contact(truth.frames(angles[k]), found.y[3:6, k].copy(), inputs(t))
+        normal[k] = pressing.sum()
         cells[k] = pressing[:, under] / _cell_area(truth)
         force[k] = float((pressing[:, under] * -truth.around[under, 1]).sum())
     mat = np.round((force + rng.normal(0.0, MAT[0], len(time))) / MAT[1]) * MAT[1]
-    return Measured(time, angles, _logged(time, angles[:, 2]), cells, force, np.maximum(mat, 0.0))
+    logger = _logged(time, angles[:, 2])
+    return Measured(time, angles, logger, cells, force, np.maximum(mat, 0.0), normal, shear)
 
 
 def _at_rest(truth: Truth, w: dict[str, np.ndarray]) -> np.ndarray:

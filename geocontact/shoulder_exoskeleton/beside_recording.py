@@ -17,9 +17,14 @@ from geocontact.shoulder_exoskeleton.work_phases import PHASES
 ELEVATION, FORCE = "elevation", "force"
 PASSIVE = JOINTS[:2]
 """Channels of the passive joints' angles."""
-RECORDED = (ELEVATION, FORCE, *PASSIVE)
+NORMAL, SHEAR, ALONG, AROUND = "normal", "shear", "shear_along", "shear_around"
+TANGENTIAL = (SHEAR, ALONG, AROUND)
+"""Channels of a two-axis mat or of load cells in a strap: size of the shear on the arm, its part along the cuff,
+positive towards the hand, and around it, positive from medial towards raising."""
+FORCES = (FORCE, NORMAL, *TANGENTIAL)
+RECORDED = (ELEVATION, FORCE, *PASSIVE, NORMAL, *TANGENTIAL)
 """Channels that are recorded: elevation of the exoskeleton's arm, force of a mat in its cuff, angles of the passive
-joints."""
+joints, sum of the pressures on the cuff's wall, shear."""
 ALL, WORK = "all", "work"
 """The whole trial; from the beginning of lifting to the end of lowering, as the study of the exoskeleton takes it."""
 FEWEST = 2

@@ -209,6 +209,16 @@ class ArmSimulation:
         return np.asarray(np.linalg.norm(self.told["friction"], axis=1))
 
     @property
+    def shear_around(self) -> Float[np.ndarray, " t"]:
+        """Friction on the arm around the cuff, positive from medial towards raising [N]; 0 on its axis, where around
+        has no direction.
+        """
+        radial, friction = self.told["place"][:, 1:], self.told["friction"][:, 1:]
+        size = np.hypot(*radial.T)
+        turned = radial[:, 0] * friction[:, 1] - radial[:, 1] * friction[:, 0]
+        return np.divide(turned, size, out=np.zeros_like(size), where=size > 0.0)
+
+    @property
     def slip(self) -> Float[np.ndarray, " t"]:
         """Distance that the arm has slid along the wall since the start [m]."""
         speed = np.linalg.norm(self.told["sliding"], axis=1)

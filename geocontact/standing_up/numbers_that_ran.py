@@ -97,10 +97,11 @@ def belief_numbers(phase: PhaseProblem, prefix: str = "") -> list[Ran]:
 
 
 def size_numbers(sizes: PhaseSizes, prefix: str = "") -> list[Ran]:
-    """What the terms of the cost are measured by."""
+    """What the terms of the cost are measured by; the noise of measured shear is in none of them."""
     noise = [
         Ran(f"{prefix}noise {name}", float(value), NOISE_UNITS[name], "derived", "of one sample, as the study has it")
         for name, value in vars(sizes.noise).items()
+        if name in NOISE_UNITS
     ]
     rate = Ran(f"{prefix}rate", sizes.rate, "Hz", "invented", "samples a second at which a deviation counts as itself")
     usual = SHIPPED

@@ -58,6 +58,9 @@ class StandingTrial:
         trial from seat-off on.
     elsewhere
         Normal force of one strap at each further site by its name [N]; no number where it is not recorded.
+    shear
+        Force of the same strap at the thigh on the person along it, towards the hip positive [N], by load cells or a
+        two-axis mat; None where it is not recorded.
     """
 
     time: Float[np.ndarray, " t"]
@@ -70,6 +73,7 @@ class StandingTrial:
     strap: Float[np.ndarray, " t"] | None = None
     chair: Float[np.ndarray, "t 3"] | None = None
     elsewhere: Mapping[str, Float[np.ndarray, " t"]] = field(default_factory=dict)
+    shear: Float[np.ndarray, " t"] | None = None
 
     @property
     def straps(self) -> Float[np.ndarray, "t s"] | None:
@@ -86,7 +90,7 @@ class StandingTrial:
 class StandingNoise:
     """Standard deviations: of lengths [m], angles [rad], rates [m/s, rad/s], force [N], centre [m].
 
-    And of torques of the joints [N m] and a strap's normal force [N].
+    And of torques of the joints [N m], a strap's normal force and its shear [N].
     """
 
     length: float = 5e-4
@@ -96,6 +100,7 @@ class StandingNoise:
     centre: float = 1e-3
     torque: float = 2.0
     strap: float = 1.0
+    shear: float = 1.0
 
 
 FOOT_JERK, JOINT_JERK = 20.0, 60.0
@@ -314,12 +319,15 @@ def seen_in(
     from casadi import Function
 
     e, n, x = model.equations, model.count, motion.state(time)
-    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.straps]).map(len(time))
+    seen = Function("seen", [e.q, e.u, e.p], [model.force, model.centre, model.straps, model.shear]).map(len(time))
     given = (x[:, :n].T, x[:, n : 2 * n].T, np.tile(p[:, None], (1, len(time))))
-    force, centre, straps = (each.full() for each in seen(*given))
+    force, centre, straps, along = (each.full() for each in seen(*given))
+    shear = along[0] if len(along) else None
     worn, elsewhere = straps[0] if len(straps) else None, dict(zip(model.elsewhere, straps[1:], strict=True))
     torque = motion.control(time)[:, n:]
-    return StandingTrial(time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, torque, worn, elsewhere=elsewhere)
+    return StandingTrial(
+        time, x[:, :n], x[:, n : 2 * n], force.T, centre[0], name, torque, worn, elsewhere=elsewhere, shear=shear
+    )
 
 
 def recorded(
@@ -348,4 +356,5 @@ def with_noise(true: StandingTrial, model: StandingModel, noise: StandingNoise, 
     torque = None if true.torque is None else off(true.torque, noise.torque)
     strap = None if true.strap is None else off(true.strap, noise.strap)
     elsewhere = {name: off(force, noise.strap) for name, force in true.elsewhere.items()}
-    return StandingTrial(true.time, q, u, force, centre, true.name, torque, strap, elsewhere=elsewhere)
+    shear = None if true.shear is None else off(true.shear, noise.shear)
+    return StandingTrial(true.time, q, u, force, centre, true.name, torque, strap, elsewhere=elsewhere, shear=shear)

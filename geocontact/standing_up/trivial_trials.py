@@ -17,7 +17,7 @@ PLACES = 2
 def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -> StandingTrial:
     """Mean of others over parts of the movement, which knows nothing of the trial but how long it is.
 
-    Torques and straps are None where one of them has none; straps that were not recorded do not count.
+    Torques, straps and shear are None where one of them has none; straps that were not recorded do not count.
     """
     part = (time - time[0]) / np.ptp(time)
 
@@ -37,13 +37,13 @@ def mean_trial(others: Sequence[StandingTrial], time: Float[np.ndarray, " t"]) -
     q, u, force, centre = (mean(of) for of in (lambda t: t.q, lambda t: t.u, lambda t: t.force, lambda t: t.centre))
     if q is None or u is None or force is None or centre is None:
         raise ValueError("a trial has no coordinates")
-    torque, strap = mean(lambda t: t.torque), mean(lambda t: t.strap)
+    torque, strap, shear = mean(lambda t: t.torque), mean(lambda t: t.strap), mean(lambda t: t.shear)
     elsewhere = {}
     for site in others[0].elsewhere:
         pressed = mean(partial(_at, site))
         if pressed is not None:
             elsewhere[site] = pressed
-    return StandingTrial(time, q, u, force, centre, "mean of others", torque, strap, elsewhere=elsewhere)
+    return StandingTrial(time, q, u, force, centre, "mean of others", torque, strap, elsewhere=elsewhere, shear=shear)
 
 
 def _at(site: str, trial: StandingTrial) -> Float[np.ndarray, " t"] | None:

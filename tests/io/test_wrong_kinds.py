@@ -17,7 +17,7 @@ import pytest
 from geocontact.analyses.catalogue import ENTRIES, job_named
 from geocontact.analyses.frame.options import declared
 from geocontact.analyses.misalignment.population.drawn import UNITS as OFFSETS
-from geocontact.analyses.shoulder.devices import CONTROLLER_UNITS
+from geocontact.analyses.shoulder.devices import CONTROLLER_UNITS, HINGE_UNITS
 from geocontact.analyses.shoulder.devices import UNITS as DEVICE_UNITS
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES
@@ -363,15 +363,17 @@ without = "A"
         {r"trials \d+ (name|level)": ("number", "text")},
     ),
     "device": Description(
-        lambda path: read_device_file(path, DEVICE_UNITS, CONTROLLER_UNITS, SOURCES),
+        lambda path: read_device_file(path, DEVICE_UNITS, CONTROLLER_UNITS, SOURCES, HINGE_UNITS),
         """name = "wide"
 based_on = "lucy"
 [numbers]
 cuff_length = { value = 160, unit = "mm", source = "invented", note = "longer" }
+[hinges]
+rod_y = { value = -20, unit = "mm", source = "invented", note = "drawing" }
 [controller]
 delay = { value = 0.05, unit = "s", source = "invented", note = "slow" }
 """,
-        {"name|based_on": WORD, "(numbers|controller) .* note": ("number", "bool", "list", "table", "date")},
+        {"name|based_on": WORD, "(numbers|hinges|controller) .* note": ("number", "bool", "list", "table", "date")},
     ),
     "person": Description(
         lambda path: read_person_file(path, ("upper_arm", "torso")), 'upper_arm = { value = 310, unit = "mm" }\n', {}

@@ -16,6 +16,7 @@ from geocontact.analyses.mat.comparison import AXES, load_table
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat, cells_of, mat_and_marks
 from geocontact.analyses.mat.recording import PreparedFrames, Travel
+from geocontact.analyses.mat.shear import MatShear, shear_table
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.slip import slip_covariance
@@ -172,6 +173,8 @@ class MatFindings(Result):
         The mat as a flat one would lie; None where it is laid that way or cannot be.
     agreement
         With the forces of a model, by channel and phase; None without one.
+    shear
+        Of a two-axis mat; None of one that has pressures only.
     """
 
     options: MatOptions
@@ -190,6 +193,7 @@ class MatFindings(Result):
     registration: Registration | None
     closest_point: ClosestPoint | None
     agreement: pd.DataFrame | None
+    shear: MatShear | None = None
 
     @property
     def heaviest(self) -> int:
@@ -212,13 +216,15 @@ MM = 1e3
 
 
 def mat_tables(r: MatFindings) -> dict[str, pd.DataFrame]:
-    """`wrench`, `uncertainty`, `cells`, `frames_cells`; and `segments`, `registration`, `agreement` where there are."""
+    """`wrench`, `uncertainty`, `cells`, `frames_cells`; and `shear`, `segments`, `registration`, `agreement` if any."""
     found = {
         "wrench": _wrench_table(r),
         "uncertainty": _uncertainty_table(r),
         "cells": _cell_table(r),
         "frames_cells": _frames_table(r),
     }
+    if r.shear is not None:
+        found["shear"] = shear_table(r.shear, r.loads.pressing, r.frames.time)
     if r.segments:
         found["segments"] = _segments_table(r)
     if r.registration is not None:

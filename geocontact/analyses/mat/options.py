@@ -21,7 +21,7 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, SHARE, TOUCH
+from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, FRICTION, SHARE, TOUCH
 
 TimeWindows = Annotated[
     tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), CLOCK, Spelled(dashed=True)
@@ -111,6 +111,12 @@ class MatOptions(Options):
         Pressure from which a cell counts as touched: 1kPa by default.
     gate
         Force [N] below which there is no centre of pressure.
+    shear_rows
+        Shear stress on the body of a two-axis mat (.csv, a grid like `frames`, in kPa), positive from row to row.
+    shear_columns
+        The same from column to column.
+    friction
+        Static friction under the mat that shear is compared with; 1 by default.
 
     Comparison with a body model
     ----------------------------
@@ -151,8 +157,9 @@ class MatOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, segments.csv with `segment`, registration.csv with
-    `body_landmarks`, agreement.csv with `compare`, mat_on_surface.vtp, report.html, mat.png, mat.svg, run.json.
+    Writes wrench.csv, uncertainty.csv, cells.csv, frames_cells.csv, shear.csv with `shear_rows`, segments.csv with
+    `segment`, registration.csv with `body_landmarks`, agreement.csv with `compare`, mat_on_surface.vtp, report.html,
+    mat.png, mat.svg, run.json.
     """
 
     frames: Path
@@ -190,6 +197,9 @@ class MatOptions(Options):
     dead: Literal["warn", "mask", "fill"] = "warn"
     touched: Annotated[Pressure, Spelled(default="1kPa"), TOUCH] = 1e3
     gate: Annotated[float, FORCE] = 5.0
+    shear_rows: Annotated[Path | None, Needs("shear_columns", "a two-axis mat records both")] = None
+    shear_columns: Annotated[Path | None, Needs("shear_rows", "a two-axis mat records both")] = None
+    friction: Annotated[float | None, Requires("shear_rows"), FRICTION] = None
     body_landmarks: Path | None = None
     body: Annotated[Path | None, Requires("icp", "give `icp`, or leave it out")] = None
     body_unit: Annotated[MeshUnit | None, Requires("body", "leave it out")] = None

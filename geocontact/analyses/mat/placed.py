@@ -26,7 +26,7 @@ from geocontact.analyses.mat.placement import (
     say_how_it_closes,
     say_which_side,
 )
-from geocontact.analyses.mat.recording import read_recording, read_segment_motion
+from geocontact.analyses.mat.recording import read_recording, read_segment_motion, read_shear
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
@@ -82,6 +82,8 @@ class MatInputs:
     ----------
     recorded
         Frames of the mat as they were read.
+    shear
+        Shear stresses from row to row and from column to column, ready; None without any.
     listed_dead
         Row and column of cells that the layout lists as dead.
     motion
@@ -105,6 +107,7 @@ class MatInputs:
     """
 
     recorded: PressureFrames
+    shear: tuple[PressureFrames, PressureFrames] | None
     listed_dead: tuple[tuple[int, int], ...]
     motion: Motion | None
     scan: Surface
@@ -124,6 +127,7 @@ def read(o: MatOptions) -> MatInputs:
     scan = read_input_surface("surface", o.surface, o.unit, None)
     return MatInputs(
         recorded,
+        read_shear(recorded, o),
         listed_dead,
         motion,
         scan,

@@ -21,7 +21,7 @@ from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.landmarks import poses_at
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.io.mats.catalogue import read_mat
+from geocontact.io.mats.catalogue import read_mat, read_shear_grid
 from geocontact.io.mats.layout import read_layout
 from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
 from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
@@ -256,6 +256,28 @@ def _smooth(read: PressureFrames, pressure: Float[np.ndarray, "t r c"], o: MatOp
         return zero_lag(pressure, step, o.cutoff)
     except ValueError as error:
         raise InputError("", "`cutoff`", str(error), "give a lower one, or 0 for none") from error
+
+
+def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames, PressureFrames] | None:
+    """Shear stresses of a two-axis mat from row to row and from column to column, without offset, smoothed as the
+    pressures are; None without any. InputError for another grid or other times than those of the pressures.
+    """
+    if o.shear_rows is None or o.shear_columns is None:
+        return None
+    layout = None if o.layout is None else read_layout(o.layout)
+    found = []
+    for role, file in (("`shear_rows`", o.shear_rows), ("`shear_columns`", o.shear_columns)):
+        read = read_shear_grid(file, layout)
+        add_input(role, file, frames=len(read.time))
+        same = read.pressure.shape == recorded.pressure.shape and np.allclose(read.time, recorded.time, atol=TOUCH)
+        if not same or not (read.valid == recorded.valid).all():
+            what = f"has other cells or times than {o.frames.name}"
+            raise InputError(file, role, what, "export pressure and shear of the same frames")
+        stress = np.where(read.valid, read.pressure, 0.0)
+        if o.unloaded is not None:
+            stress = stress - _zero(read, stress, o.unloaded).at(read.time)
+        found.append(replace(read, pressure=_smooth(read, stress, o)))
+    return found[0], found[1]
 
 
 def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:

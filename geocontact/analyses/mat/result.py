@@ -28,6 +28,7 @@ from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, closest_point, placed, read
 from geocontact.analyses.mat.recording import followed, made_ready
+from geocontact.analyses.mat.shear import mat_shear
 from geocontact.analyses.mat.show import FRAMES, cells_figure, mat_figure, mat_page, shown_frames
 from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 
 
 MM = 1e3
-REFERRED = ("wrench", "uncertainty", "segments")
+REFERRED = ("wrench", "uncertainty", "segments", "shear")
 """Tables that refer to a point and a frame, which run.json names."""
 OF_A_CASE = ("cells", "frames_cells")
 """Tables as gap cases hold them, in SI."""
@@ -129,6 +130,7 @@ def _evaluated(given: MatInputs, o: MatOptions, at: Callable[[str], None]) -> Ma
         there = placed(given, frames, o)
     at(f"loads of {len(frames.time)} frames")
     found = loads(given, there, seen, travel, o)
+    shear = mat_shear(given, there, frames, (found.pressure, found.whole), travel, o)
     model, agreement = given.model, None
     if model is not None:
         at("comparison with the model")
@@ -150,6 +152,7 @@ def _evaluated(given: MatInputs, o: MatOptions, at: Callable[[str], None]) -> Ma
         registration=there.registration,
         closest_point=closest_point(there, frames, o),
         agreement=agreement,
+        shear=shear,
     )
 
 

@@ -11,8 +11,9 @@ import pandas as pd
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES, Number, Source
-from geocontact.io.recordings.shoulder_device import StatedNumber, read_device_file, read_person_file
+from geocontact.io.recordings.shoulder_device import DeviceFile, StatedNumber, read_device_file, read_person_file
 from geocontact.io.text.side_table import read_side_table
+from geocontact.shoulder_exoskeleton.cylinder_hinges import HINGES, REPLACED, with_hinges
 from geocontact.shoulder_exoskeleton.device import BUILT_IN, JOINTS, QUANTITIES, Device, DeviceQuantity, Wearer
 from geocontact.shoulder_exoskeleton.support.controller_numbers import CONTROLLED, thresholds_of
 from geocontact.shoulder_exoskeleton.support.outcome import Factors
@@ -24,6 +25,7 @@ LENGTHS = ("upper_arm", "shoulder_width", "torso")
 SHORTEST, LONGEST = 0.1, 1.0
 """Lengths of a person [m] that are believed."""
 UNITS = {name: quantity.unit for name, quantity in QUANTITIES.items()}
+HINGE_UNITS = {name: quantity.unit for name, quantity in HINGES.items()}
 CONTROLLER_UNITS = {name: quantity.unit for name, quantity in CONTROLLED.items()}
 
 
@@ -35,15 +37,34 @@ def device_named(named: str) -> Device:
     if not file.is_file():
         what = f"{named!r} is neither a file nor a built-in device"
         raise InputError("", "`device`", what, f"built in are {', '.join(BUILT_IN)}")
-    told = read_device_file(file, UNITS, CONTROLLER_UNITS, SOURCES)
+    told = read_device_file(file, UNITS, CONTROLLER_UNITS, SOURCES, HINGE_UNITS)
     if told.based_on not in BUILT_IN:
         raise InputError(file, "`based_on`", f"{told.based_on!r} is not built in", f"one of {', '.join(BUILT_IN)}")
     numbers = dict(BUILT_IN[told.based_on]().numbers)
     numbers |= _in_range(file, "numbers", told.numbers, QUANTITIES)
     device = Device(told.name, numbers, _in_range(file, "controller", told.controller, CONTROLLED))
     _require_sound(file, device)
-    add_input("`device`", file, numbers=len(told.numbers) + len(told.controller))
+    if told.hinges:
+        device = _hinged(file, device, told)
+    add_input("`device`", file, numbers=len(told.numbers) + len(told.hinges) + len(told.controller))
     return device
+
+
+def _hinged(file: Path, device: Device, told: DeviceFile) -> Device:
+    """With the levers of its cylinder's hinges; a warning where the stroke ends within the range of the arm."""
+    twice = [name for name in REPLACED if name in told.numbers]
+    if twice:
+        raise InputError(file, f"[numbers] {twice[0]}", "follows from [hinges] as well", "leave it out, or [hinges]")
+    try:
+        found = with_hinges(device, _in_range(file, "hinges", told.hinges, HINGES))
+    except ValueError as error:
+        raise InputError(
+            file, "[hinges]", str(error), "check places and stroke: y backwards, z up, arm hanging"
+        ) from error
+    low, high = (np.degrees(found[f"elevation_{end}"]) for end in ("lower", "upper"))
+    if (found["elevation_lower"], found["elevation_upper"]) != (device["elevation_lower"], device["elevation_upper"]):
+        reserve(f"{file.name}: the cylinder ends within the arm's range, which is {low:.0f} to {high:.0f} deg by it")
+    return found
 
 
 def _in_range(
@@ -67,8 +88,11 @@ def _in_range(
     return found
 
 
-def wearer_named(file: Path | None) -> Wearer:
-    """Lengths of the person in a file; the usual ones where it does not tell them, or there is none."""
+def wearer_named(file: Path | None, *, back: bool = False) -> Wearer:
+    """Lengths of the person in a file; the usual ones where it does not tell them, or there is none.
+
+    A warning for a torso, which moves no arm, unless the loads of the lower `back` are asked for.
+    """
     if file is None:
         usual = Wearer()
         reserve(
@@ -76,7 +100,10 @@ def wearer_named(file: Path | None) -> Wearer:
             f"{1e3 * usual.shoulder_width:.0f} mm wide (invented)"
         )
         return usual
-    found = wearer_of_lengths(file, read_person_file(file, LENGTHS))
+    lengths = read_person_file(file, LENGTHS)
+    found = wearer_of_lengths(file, lengths)
+    if "torso" in lengths and not back:
+        reserve(f"{file.name}: torso changes no arm and no force: it is drawn, and places the lower back with `mass`")
     add_input("`person`", file)
     return found
 

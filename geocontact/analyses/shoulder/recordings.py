@@ -16,12 +16,20 @@ from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
-from geocontact.shoulder_exoskeleton.beside_recording import FORCE, PASSIVE, RECORDED, Channels
+from geocontact.shoulder_exoskeleton.beside_recording import (
+    ALONG,
+    AROUND,
+    FORCES,
+    RECORDED,
+    SHEAR,
+    TANGENTIAL,
+    Channels,
+)
 
 
 def shown_in(channel: str) -> tuple[str, float]:
     """Unit of a channel in tables and sentences, and how many of it one SI unit is."""
-    return ("N", 1.0) if channel == FORCE else ("deg", float(np.degrees(1.0)))
+    return ("N", 1.0) if channel in FORCES else ("deg", float(np.degrees(1.0)))
 
 
 def recorded_channels(
@@ -31,8 +39,9 @@ def recorded_channels(
     unit: ForceUnit | None = None,
     delay: float = 0.0,
 ) -> Channels:
-    """Columns elevation, force, passive_1 and passive_2 of a table, or those that `named` maps to them; InputError
-    where there is none.
+    """Columns of a table named as `RECORDED`, or those that `named` maps to them; InputError where there is none.
+
+    The size of the shear comes from both of its parts where it is not recorded itself.
 
     Parameters
     ----------
@@ -50,12 +59,35 @@ def recorded_channels(
         column = _column(table, channel, mapping)
         if column is not None:
             sign, name = column
-            found = _force(table, name, unit) if channel == FORCE else angles_of(table, [name], angles)[:, 0]
+            found = _force(table, name, unit) if channel in FORCES else angles_of(table, [name], angles)[:, 0]
             values[channel] = sign * found
     if not values:
-        what = f"no column elevation, force, {' or '.join(PASSIVE)}; columns are: {listed(table.channels)}"
+        what = f"no column {', '.join(RECORDED[:-1])} or {RECORDED[-1]}; columns are: {listed(table.channels)}"
         raise InputError(path, "", what, "name them: `map` elevation=NAME,force=NAME")
+    _require_size(path, values)
     return Channels(table.time - delay, values)
+
+
+BELOW, ABOVE = -0.02, 1.02
+"""Shares of the largest shear that an offset or noise may put a size below 0, or a part above the whole."""
+
+
+def _require_size(path: Path, values: dict[str, Float[np.ndarray, " t"]]) -> None:
+    """The size of the shear from its parts; InputError for a size with a sign, or a part that is larger than it."""
+    parts = [values[name] for name in (ALONG, AROUND) if name in values]
+    if SHEAR not in values:
+        if len(parts) == len(TANGENTIAL) - 1:
+            values[SHEAR] = np.hypot(*parts)
+        return
+    size = values[SHEAR]
+    most = float(np.nanmax(np.abs(size), initial=0.0))
+    if np.nanmin(size, initial=0.0) < BELOW * most:
+        what = f"{SHEAR} is {np.nanmin(size):.3g} N somewhere, and a size is never below 0"
+        raise InputError(path, SHEAR, what, f"name a part with a sign: `map` {ALONG}=NAME or {AROUND}=NAME")
+    for name in (ALONG, AROUND):
+        if name in values and float(np.nanmax(np.abs(values[name]) - size)) > (ABOVE - 1.0) * most:
+            what = f"{name} is larger than the shear that it is a part of"
+            raise InputError(path, name, what, "check units and columns: shear² = along² + around²")
 
 
 def _column(table: TextTable, channel: str, mapping: Mapping[str, tuple[float, str]]) -> tuple[float, str] | None:

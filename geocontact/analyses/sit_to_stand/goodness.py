@@ -11,14 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from geocontact.analyses.sit_to_stand.trial_tables import StandingChannel, channels
+from geocontact.analyses.sit_to_stand.trial_tables import SHEAR, StandingChannel, channels
 from geocontact.identify.goodness_of_fit import FAR, Doubt, GoodnessOfFit, of_r2, of_residual, residual_test
 from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingNoise
 
-PREDICTED = ("coordinates", "strap")
+PREDICTED = ("coordinates", "strap", SHEAR)
 SIMULATED = ("force", "centre")
 
 

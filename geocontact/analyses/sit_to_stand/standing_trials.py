@@ -23,8 +23,10 @@ from geocontact.data.wrench import Wrench
 from geocontact.identify.signals.filters import UNEVEN
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import columns_of, motion_of
+from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
+from geocontact.loads.friction_limit import friction_limit
 from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, hip_height, movements_of
@@ -38,6 +40,11 @@ FEWEST = 20
 """Samples of a trial."""
 NORMAL, FORWARDS = "normal", "fx"
 """Columns of a strap's force: in a file of its own, and in the wrench.csv of a mat, whose scan has x forwards."""
+SHEAR = "shear"
+"""Column of the force along the segment, beside `NORMAL`."""
+FRICTION = 1.0
+"""Coefficient that shear is confronted with, generous: dry skin on textiles has less (review: Derler & Gerhardt 2012,
+Tribol Lett 45:1)."""
 SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
 JOINTS, UPRIGHT = slice(3, 6), np.radians(25.0)
@@ -142,13 +149,15 @@ def channels_of(
     if feet is not None and files.plates is not None:
         with _named(files.plates, feet):
             force, centre = under_the_feet(_wrench(feet, time), time, q[:, 0])
-    torque, strap, elsewhere = None, None, {}
+    torque, strap, shear, elsewhere = None, None, None, {}
     if "torque" in tracks:
         torque = joint_torques(
             files, subject.device, whole.time, whole.values[:, len(COORDINATES) :], used, noise.torque
         )
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
+        shear = site_shear(files.strap, time)
+        _confront_shear(files.name, shear, strap, time)
         roles = {site: f"{files.name} strap_{site}" for site in sites}
         elsewhere = {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
     sat_on = None
@@ -171,7 +180,7 @@ def channels_of(
             channels=tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in recorded),
         )
     )
-    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere)
+    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
 
 
 def _require_tracked(files: StandingTrialFiles, tracks: tuple[str, ...], study: Path, place: str) -> None:
@@ -218,6 +227,40 @@ def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
         remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
     return columns_at(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
+
+
+def site_shear(files: Sequence[Path], time: Times) -> Times | None:
+    """Sum of the measured shear of one strap's files [N], along the segment, towards the hip; None where none has it.
+
+    InputError where only some have it: their sum would lack the others' part.
+    """
+    having = [file for file in files if SHEAR in read_table(file).channels]
+    if not having:
+        return None
+    lacking = [file for file in files if file not in having]
+    if lacking:
+        what = f"no column shear, which {having[0].name} of the same strap has"
+        raise InputError(lacking[0], "", what, "give shear [N] in all files of a strap, or in none")
+    return np.asarray(np.sum([_in_newtons(file, time) for file in having], axis=0))
+
+
+def _in_newtons(file: Path, time: Times) -> Times:
+    table = read_table(file)
+    values = column_in_newtons(table, SHEAR, None)[0]
+    return np.interp(time, table.time, values)
+
+
+def _confront_shear(name: str, shear: Times | None, normal: Times, time: Times) -> None:
+    """A warning for shear beyond what friction can pass on under the net normal force of the mats."""
+    if shear is None:
+        return
+    found = friction_limit(shear, np.abs(normal), FRICTION)
+    if not found.kept:
+        reserve(
+            f"{name} strap: the measured shear exceeds friction {FRICTION:g} times the normal force for "
+            f"{found.beyond:.0%} of the time, first at {time[found.first]:.2f} s (median ratio {found.usual:.2g}): "
+            "does the strap's tension press on both sides, or is a unit another one?"
+        )
 
 
 def _within(files: StandingTrialFiles, time: Times) -> Bool[np.ndarray, " t"]:

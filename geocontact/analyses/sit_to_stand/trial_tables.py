@@ -20,6 +20,8 @@ from geocontact.standing_up.phase import JudgedMotion
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
 
+SHEAR = "shear"
+"""Channel that is never tracked: the strap's shear is predicted and compared where it was measured."""
 DEGREE, MILLIMETRE = float(np.degrees(1.0)), 1e3
 BEYOND = (
     "after an interval [-]",
@@ -85,6 +87,9 @@ def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) ->
     for site, force in model.elsewhere.items():
         told = seen.elsewhere.get(site, none)
         found.append(StandingChannel("strap", f"{site} strap", "N", 1.0, told, force, noise.strap))
+    if seen.shear is not None:
+        shear = none if model.shear is None else model.shear
+        found.append(StandingChannel(SHEAR, "strap shear", "N", 1.0, seen.shear, shear, noise.shear))
     return found
 
 
@@ -100,7 +105,7 @@ def errors_table(trials: Sequence[TrialResult], noise: StandingNoise, tracks: Se
         }
         for trial in trials
         for each in channels(trial.recorded, trial.model, noise)
-        if each.channel in tracks and np.isfinite(each.recorded).all()
+        if (each.channel in tracks or each.channel == SHEAR) and np.isfinite(each.recorded).all()
     ]
     return pd.DataFrame(rows, columns=["trial", "quantity", "unit", "rmsd", "noise"])
 
@@ -142,7 +147,7 @@ def trial_table(trial: TrialResult, noise: StandingNoise, tracks: Sequence[str])
         if each.channel == "rates":
             continue
         columns[f"{each.name} [{each.unit}]"] = each.factor * each.model
-        if each.channel in tracks and np.isfinite(each.recorded).all():
+        if (each.channel in tracks or each.channel == SHEAR) and np.isfinite(each.recorded).all():
             columns[f"recorded {each.name} [{each.unit}]"] = each.factor * each.recorded
     columns["residual [N]"] = trial.residual(trial.judged.force)
     columns["residual [N m]"] = trial.residual(trial.judged.moment)

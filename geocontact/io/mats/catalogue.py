@@ -49,3 +49,14 @@ def read_mat(path: Path, layout: MatLayout | None = None, kind: str | None = Non
         remedy = f"kinds are {', '.join(READERS)}; a plain grid has one row `time [s], 1, 2, ...` above its frames"
         raise InputError(path, "", what, remedy)
     return READERS[kind].read(text, layout)
+
+
+def read_shear_grid(path: Path, layout: MatLayout | None = None) -> PressureFrames:
+    """Shear stress of each cell along one direction over time [Pa], from a plain grid; no other format has any.
+
+    InputError for another kind of file, and as of `read_mat`.
+    """
+    text = read_mat_text(path)
+    if not grid_csv.is_grid(text):
+        raise InputError(path, "", "is no plain grid of cells", "export shear as `time [s], 1 [kPa], 2 [kPa], ...`")
+    return grid_csv.read_grid(text, layout, signed=True)[0]

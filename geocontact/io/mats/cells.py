@@ -91,10 +91,11 @@ class MatRecording:
     rate: float | None = None
 
 
-def frames_of(found: MatRecording, layout: MatLayout) -> PressureFrames:
+def frames_of(found: MatRecording, layout: MatLayout, *, signed: bool = False) -> PressureFrames:
     """Cells on the grid, in SI; what the file leaves open is taken from the layout, what they disagree on is refused.
 
     Pressures below zero are kept, with one warning that counts them: the noise of an offset that may be taken off yet.
+    `signed` values are shear stresses, which have either sign.
     """
     rows = _needed(found, "rows", found.rows, layout.rows)
     columns = _needed(found, "columns", found.columns, layout.columns)
@@ -110,8 +111,9 @@ def frames_of(found: MatRecording, layout: MatLayout) -> PressureFrames:
         pressure *= unit
     valid = _valid(found, layout, pressure)
     pressure[:, ~valid] = np.nan
-    _warn_negative(pressure, unit, found)
-    warn_implausible(found.file, found.name, float(np.nanmax(pressure)), unit)
+    if not signed:
+        _warn_negative(pressure, unit, found)
+    warn_implausible(found.file, found.name, float(np.nanmax(np.abs(pressure) if signed else pressure)), unit)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
         areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]

@@ -36,8 +36,8 @@ def is_grid(text: MatText) -> bool:
     return len(names) > 1 and all(_ID.fullmatch(name) or _PLACE.fullmatch(name) for name in names[1:])
 
 
-def read_grid(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, ...]:
-    """Frames of one mat, whose rows, columns and pitch the layout declares."""
+def read_grid(text: MatText, layout: MatLayout | None, *, signed: bool = False) -> tuple[PressureFrames, ...]:
+    """Frames of one mat, whose rows, columns and pitch the layout declares; `signed` ones hold shear stresses."""
     if layout is None or layout.rows is None or layout.columns is None:
         remedy = "give a layout file with rows, columns and pitch_mm"
         raise InputError(text.file, "", "a grid of cells does not say how they lie", remedy)
@@ -65,7 +65,7 @@ def read_grid(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames, 
         raise InputError(text.file, f"line {header[0]}", "no rows below the header", "is the export complete?")
     complete = None if ids == list(range(layout.rows * layout.columns)) else ids
     found = MatRecording(text.file, "mat", time if time_scale is not None else None, lines, values, unit, complete)
-    return (frames_of(found, layout),)
+    return (frames_of(found, layout, signed=signed),)
 
 
 def _time(cell: str, notation: Notation, file: str, line: int) -> float:

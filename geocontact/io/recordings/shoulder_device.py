@@ -63,6 +63,9 @@ class DeviceDescription(Document):
         The built-in device whose numbers count where none is given.
     numbers
         Numbers by name: `NAME = { value, unit, source, note }`.
+    hinges
+        Hinges and stroke of its cylinder, in the same way, in place of its levers: rod_y, rod_z, frame_y, frame_z,
+        retracted, extended.
     controller
         Thresholds and sensors of its controller, in the same way: low, high, up, down, still, on, off, confirmed,
         running, smoothing, settled, turned, angle_noise, angle_step, delay, current_noise.
@@ -71,6 +74,7 @@ class DeviceDescription(Document):
     name: Word | None = None
     based_on: Word = "lucy"
     numbers: Mapping[str, Any] = {}
+    hinges: Mapping[str, Any] = {}
     controller: Mapping[str, Any] = {}
 
 
@@ -82,10 +86,15 @@ class DeviceFile:
     based_on: str
     numbers: Mapping[str, StatedNumber]
     controller: Mapping[str, StatedNumber]
+    hinges: Mapping[str, StatedNumber]
 
 
 def read_device_file(
-    path: Path, units: Mapping[str, str], controlled: Mapping[str, str], sources: tuple[str, ...]
+    path: Path,
+    units: Mapping[str, str],
+    controlled: Mapping[str, str],
+    sources: tuple[str, ...],
+    hinges: Mapping[str, str],
 ) -> DeviceFile:
     """A device from `device.toml`; InputError for what it cannot be.
 
@@ -95,16 +104,18 @@ def read_device_file(
         SI unit of every number that a device has, and of every one that its controller has.
     sources
         Words that may say where a number is from.
+    hinges
+        SI unit of every number of a cylinder's hinges.
     """
     fields: dict[str, Any] = {}
-    for field, own in (("numbers", units), ("controller", controlled)):
+    for field, own in (("numbers", units), ("hinges", hinges), ("controller", controlled)):
         some = Some(
             {name: Annotated[StatedNumber, SourcedQuantity(unit, sources=sources)] for name, unit in own.items()}
         )
         fields[field] = (Annotated[dict[str, StatedNumber], some], {})
     kind = create_model("Device", __base__=DeviceDescription, **fields)
     found: DeviceDescription = checked(path, kind, toml_of(path, LARGEST))
-    return DeviceFile(found.name or path.stem, found.based_on, found.numbers, found.controller)
+    return DeviceFile(found.name or path.stem, found.based_on, found.numbers, found.controller, found.hinges)
 
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:

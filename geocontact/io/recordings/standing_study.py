@@ -21,7 +21,8 @@
 Files are looked for beside the description. With `sitting = true` a trial begins while the person still sits, and the
 chair's force is a load on the model. With `exoskeleton = true` a trial also has `torques` and at least one of the
 straps, whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x
-forwards. A list of files, such as mats in front and behind, has the sum of their forces.
+forwards. A list of files, such as mats in front and behind, has the sum of their forces. `shear [N]` in the thigh's is
+the measured force along it, which is compared with the predicted one.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from geocontact.data.plausible import KG, N_M, N, Plausible
 from geocontact.data.text import same_place
@@ -60,6 +61,7 @@ NOISE = {
     "centre": Plausible("the standard deviation of a centre of pressure", mm, (1e-4, 1000.0), (0.05, 50.0)),
     "torque": Plausible("the standard deviation of a torque", N_M, (1e-5, 1e4), (0.01, 50.0)),
     "strap": Plausible("the standard deviation of a strap's force", N, (1e-5, 1e4), (0.05, 50.0)),
+    "shear": Plausible("the standard deviation of a strap's shear", N, (1e-5, 1e4), (0.05, 50.0)),
 }
 """What the standard deviations of one sample can be: instruments have the lower ends, soft tissue the upper ones."""
 Deviation = {name: Annotated[float, WithUnit(known)] for name, known in NOISE.items()}
@@ -106,7 +108,8 @@ class StandingTrialFiles(Document):
     movement
         Which of the recording's movements of this task is used, from 1.
     strap
-        Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan.
+        Normal force on the thigh: .csv of the mat of one leg, `normal [N]`, or `wrench.csv` of a mat on a scan; with
+        load cells or a two-axis mat also `shear [N]`, along the thigh, towards the hip, which is compared only.
     strap_shank, strap_pelvis
         The same of further straps; the pelvis has the force of the whole module.
     feet, chair

@@ -81,7 +81,11 @@ def test_a_late_clock_is_set_right(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("columns", "options", "words"),
     [
-        ({"angle [deg]": TIME}, {}, "no column elevation, force, passive_1 or passive_2; columns are"),
+        (
+            {"angle [deg]": TIME},
+            {},
+            "no column elevation, force, passive_1, passive_2, normal, shear, shear_along or shear_around; columns are",
+        ),
         ({"elevation [deg]": TIME}, {"map": "force=mat"}, "no column 'mat' for force"),
         ({"elevation [deg]": TIME}, {"delay": 100.0}, "the simulation from 0 to 6 s; give `delay`"),
     ],

@@ -13,7 +13,7 @@ from geocontact.analyses.shoulder.devices import device_named
 from geocontact.analyses.shoulder.recordings import current_at
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.errors import InputError
-from geocontact.shoulder_exoskeleton.device import QUANTITIES, lucy
+from geocontact.shoulder_exoskeleton.device import QUANTITIES, cylinder_length, lever, lucy
 from geocontact.shoulder_exoskeleton.support.phase_machine import LIFT, LOWER, SCREW, detected
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from tests.analyses.shoulder.test_simulate import TRIAL, simulated
@@ -123,3 +123,66 @@ def test_a_profile_needs_the_tool(tmp_path: Path) -> None:
         gc.shoulder.simulate(TRIAL / "markers.trc", profile=profile(tmp_path, f"{HEAD}\n{ROWS}"))
     with pytest.raises(InputError, match="`task`"):
         simulated(task="T1")
+
+
+def hinged(folder: Path, **places: float) -> Path:
+    """A device with a cylinder of 32 mm between hinges [mm]."""
+    lines = "".join(
+        f'{name} = {{ value = {value}, unit = "mm", source = "paper" }}\n' for name, value in places.items()
+    )
+    file = folder / "hinged.toml"
+    file.write_text(f'based_on = "lucy_new_cylinder"\n[hinges]\n{lines}', encoding="utf-8")
+    return file
+
+
+def test_hinges_give_the_lever_of_the_two_points(tmp_path: Path) -> None:
+    """Torque over force by hand: the moment arm of the line through both hinges, the rod's turned with the arm."""
+    rod, frame = np.array([-24.0, 8.0]), np.array([-30.0, -140.0])
+    device = device_named(str(hinged(tmp_path, rod_y=rod[0], rod_z=rod[1], frame_y=frame[0], frame_z=frame[1])))
+    for elevation in np.radians([-10.0, 20.0, 60.0, 110.0]):
+        cos, sin = np.cos(elevation), np.sin(elevation)
+        turned = np.array([[cos, sin], [-sin, cos]]) @ rod  # down (0, -1) goes to the front (-1, 0)
+        away = turned - frame
+        length = np.hypot(*away)
+        push = away / length
+        raising = turned[1] * push[0] - turned[0] * push[1]  # about -x
+        own = (device["lever_a"], device["lever_b"], device["lever_phase"])
+        assert 1e3 * lever(elevation, *own) == pytest.approx(raising, abs=1e-9)
+        assert 1e3 * cylinder_length(elevation, *own) == pytest.approx(length, abs=1e-9)
+    assert device.numbers["lever_a"].source == "paper"
+    assert device["elevation_upper"] == lucy()["elevation_upper"]
+
+
+def test_a_stroke_that_ends_stops_the_arm(tmp_path: Path) -> None:
+    """The hinges are the stroke's end apart where the range ends now, and no elevation beyond has a cylinder."""
+    places = {"rod_y": 0.0, "rod_z": -26.5, "frame_y": 0.0, "frame_z": -150.0}
+    with pytest.warns(gc.InputWarning, match=r"the cylinder ends within the arm's range, which is -15 to 108 deg"):
+        device = device_named(str(hinged(tmp_path, **places, extended=160.0)))
+    own = (device["lever_a"], device["lever_b"], device["lever_phase"])
+    assert 1e3 * cylinder_length(device["elevation_upper"], *own) == pytest.approx(160.0, abs=0.05)
+    assert device["lever_phase"] == pytest.approx(0.0, abs=1e-12)
+    assert device.numbers["elevation_upper"].note == "where the stroke of the cylinder ends"
+
+
+@pytest.mark.parametrize(
+    ("places", "extra", "words"),
+    [
+        ({"rod_y": 1.0}, "", "rod_z, frame_y, frame_z are missing"),
+        ({"rod_y": 0.0, "rod_z": 0.2, "frame_y": 0.0, "frame_z": -150.0}, "", "lies on the active axis"),
+        (
+            {"rod_y": 0.0, "rod_z": -20.0, "frame_y": 0.0, "frame_z": -150.0, "extended": 100.0},
+            "",
+            "fits at no elevation",
+        ),
+        (
+            {"rod_y": 0.0, "rod_z": -20.0, "frame_y": 0.0, "frame_z": -150.0},
+            '[numbers]\nlever_a = { value = 20, unit = "mm" }\n',
+            "lever_a: follows from [hinges] as well",
+        ),
+    ],
+)
+def test_hinges_that_cannot_be_are_refused(tmp_path: Path, places: dict[str, float], extra: str, words: str) -> None:
+    file = hinged(tmp_path, **places)
+    file.write_text(file.read_text(encoding="utf-8") + extra, encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(words)):
+        device_named(str(file))

@@ -33,6 +33,14 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.shoulder.compare.options import ShoulderCompareOptions
+from geocontact.analyses.shoulder.compare.shear import (
+    MeasuredShear,
+    friction_beside,
+    friction_table,
+    measured_shear,
+    say_shear,
+    shear_doubts,
+)
 from geocontact.analyses.shoulder.recording_doubts import recording_doubts
 from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
@@ -42,9 +50,14 @@ from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_range
 from geocontact.io.text.side_table import read_side_table
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ALL,
+    ALONG,
+    AROUND,
     ELEVATION,
     FORCE,
+    NORMAL,
     PASSIVE,
+    SHEAR,
+    TANGENTIAL,
     WORK,
     Channels,
     ComparedChannel,
@@ -55,7 +68,15 @@ from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
 from geocontact.view.page.content import Page, Words
 from geocontact.view.page.tables import frame_table
 
-SIMULATED = {ELEVATION: "elevation [rad]", FORCE: "supporting [N]", **{joint: f"{joint} [rad]" for joint in PASSIVE}}
+SIMULATED = {
+    ELEVATION: "elevation [rad]",
+    FORCE: "supporting [N]",
+    **{joint: f"{joint} [rad]" for joint in PASSIVE},
+    NORMAL: "normal [N]",
+    SHEAR: "shear [N]",
+    ALONG: "distal [N]",
+    AROUND: "shear around [N]",
+}
 """Columns of the simulated arm that the recorded channels are compared with."""
 OUT = "out of the cuff"
 MAT = (
@@ -72,22 +93,30 @@ class ArmAndRecording:
     ----------
     out_of_cuff
         Share of the simulated time for which the sphere is out of the cuff.
+    friction
+        Static friction of the cuff; None where no shear was recorded.
     """
 
     simulated: Channels
     phase: tuple[str, ...]
     out_of_cuff: float
     recorded: Channels
+    friction: float | None = None
 
 
 def read(o: ShoulderCompareOptions) -> ArmAndRecording:
     """Both files."""
     recorded = recorded_channels(o.recorded, o.map, o.angles, o.unit, o.delay)
-    simulated, phase, out = _simulated(o.simulated, {ELEVATION, FORCE, *recorded.curves})
+    sheared = any(name in recorded.curves for name in TANGENTIAL)
+    wanted = {ELEVATION, FORCE, *recorded.curves, *((NORMAL,) if sheared else ())}
+    simulated, phase, out = _simulated(o.simulated, wanted)
+    if o.friction is not None and not sheared:
+        raise InputError("", "`friction`", "has no effect without measured shear", "leave it out")
+    friction = friction_beside(o.simulated, o.friction) if sheared else None
     _doubt_side(o)
     add_input("simulated", o.simulated, frames=len(phase))
     add_input("recorded", o.recorded, samples=len(recorded.time))
-    return ArmAndRecording(simulated, phase, out, recorded)
+    return ArmAndRecording(simulated, phase, out, recorded, friction)
 
 
 def _doubt_side(o: ShoulderCompareOptions) -> None:
@@ -194,16 +223,19 @@ def _facts(channels: Sequence[ComparedChannel]) -> list[tuple[str, str]]:
     return facts
 
 
-def comparison_page(recorded: str, channels: Sequence[ComparedChannel], reserved: str) -> Page:
+def comparison_page(
+    recorded: str, channels: Sequence[ComparedChannel], reserved: str, shear: MeasuredShear | None = None
+) -> Page:
     """Both curves of each channel, and errors by phase; `recorded` is the name of the recording.
 
-    `reserved` are the words of `answer`.
+    `reserved` are the words of `answer`, `shear` is what was measured of it.
     """
+    limits = () if shear is None else (frame_table("Shear beside the friction limit", friction_table(shear)),)
     time = channels[0].time
     shown = thinned(len(time), [values for one in channels for values in (one.measured, one.model)])
     return Page(
         title=f"Simulated arm against {recorded}",
-        subtitle="Shoulder exoskeleton: elevation of its arm, force in its cuff, passive joints",
+        subtitle="Shoulder exoskeleton: elevation of its arm, forces in its cuff, passive joints",
         time=time[shown],
         time_label="time [s]",
         headline=answer(channels, reserved),
@@ -212,6 +244,7 @@ def comparison_page(recorded: str, channels: Sequence[ComparedChannel], reserved
         sections=(
             *channel_curves(channels).at(shown),
             frame_table("Errors by channel and phase", comparison_table(channels)),
+            *limits,
             INPUTS,
             OPTIONS,
             Words("What the numbers do not contain", [MAT, NOT_A_DEVICE]),
@@ -231,11 +264,14 @@ class ShoulderCompareResult(Result):
         Those that were recorded.
     out_of_cuff
         Share of the simulated time for which the sphere is out of the cuff.
+    shear
+        Measured shear beside its friction limit; None where none was recorded.
     """
 
     options: ShoulderCompareOptions
     channels: tuple[ComparedChannel, ...]
     out_of_cuff: float
+    shear: MeasuredShear | None = None
 
     @property
     def rmsd(self) -> dict[tuple[str, str], float]:
@@ -243,8 +279,9 @@ class ShoulderCompareResult(Result):
         return {(one.channel, phase): a.rmsd for one in self.channels for phase, a in one.errors.items()}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`comparison`: one row per channel and phase."""
-        return {"comparison": comparison_table(self.channels)}
+        """`comparison`: one row per channel and phase; `friction` where shear was measured."""
+        found = {"comparison": comparison_table(self.channels)}
+        return found if self.shear is None else {**found, "friction": friction_table(self.shear)}
 
     def curves(self) -> dict[str, CurveSheet]:
         """`comparison`: each channel, recorded and simulated."""
@@ -253,13 +290,14 @@ class ShoulderCompareResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Both curves of each channel, and errors by phase."""
         reserved = out_of_cuff_words(self.out_of_cuff)
-        return {REPORT: comparison_page(self.options.recorded.name, self.channels, reserved)}
+        return {REPORT: comparison_page(self.options.recorded.name, self.channels, reserved, self.shear)}
 
 
 def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResult:
     """Errors of every channel that was recorded, and what is to be said of them."""
     channels = compared(both, o)
-    judge(goodness_of(channels, both.out_of_cuff, o.delay))
+    shear = _shear_of(both, channels)
+    judge(goodness_of(channels, both.out_of_cuff, o.delay, shear))
     reserved = out_of_cuff_words(both.out_of_cuff)
     for one in channels:
         unit, factor = shown_in(one.channel)
@@ -270,12 +308,24 @@ def run(both: ArmAndRecording, o: ShoulderCompareOptions) -> ShoulderCompareResu
         "comparison",
         plain({each.channel: {name: vars(error) for name, error in each.errors.items()} for each in channels}),
     )
-    return ShoulderCompareResult(options=o, channels=channels, out_of_cuff=both.out_of_cuff)
+    if shear is not None:
+        say_shear(shear)
+    return ShoulderCompareResult(options=o, channels=channels, out_of_cuff=both.out_of_cuff, shear=shear)
 
 
-def goodness_of(channels: Sequence[ComparedChannel], out_of_cuff: float, delay: float | None) -> GoodnessOfFit:
-    """Every channel against its recording, and whether the sphere is where the model holds."""
+def _shear_of(both: ArmAndRecording, channels: Sequence[ComparedChannel]) -> MeasuredShear | None:
+    if both.friction is None:
+        return None
+    normal = np.interp(channels[0].time, both.simulated.time, both.simulated.curves[NORMAL])
+    return measured_shear({one.channel: one for one in channels}, normal, both.friction)
+
+
+def goodness_of(
+    channels: Sequence[ComparedChannel], out_of_cuff: float, delay: float | None, shear: MeasuredShear | None = None
+) -> GoodnessOfFit:
+    """Every channel against its recording, shear against friction, and whether the sphere is where the model holds."""
     doubts = [doubt for one in channels for doubt in recording_doubts(one, delay)]
+    doubts += shear_doubts(shear, {one.channel: one for one in channels})
     doubts += of_range("the sphere is out of the cuff for", out_of_cuff)
     return GoodnessOfFit(tuple(doubts), (*(one.channel for one in channels), "sphere in its cuff"))
 

@@ -54,7 +54,7 @@ class Worn:
         Filtered, without gaps, at even times.
     frame
         The device in the laboratory at the same times.
-    markers
+    markers, names
         All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
     tool
         Whether the tool runs; None where nobody told.
@@ -65,6 +65,7 @@ class Worn:
     arms: tuple[ArmMotion, ...]
     frame: DeviceFrame
     markers: Float[np.ndarray, "t m 3"]
+    names: tuple[str, ...]
     device: Device
     wearer: Wearer
     tool: Bool[np.ndarray, " t"] | None
@@ -73,7 +74,7 @@ class Worn:
 
 def read(o: ShoulderSimulateOptions) -> Worn:
     """Everything the options name."""
-    return worn_along(o, wearer_named(o.person))
+    return worn_along(o, wearer_named(o.person, back=o.mass is not None))
 
 
 def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
@@ -91,7 +92,8 @@ def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
     tool = None if o.tool is None else tool_runs(o.tool, CURRENT if o.tool_current is None else o.tool_current, time)
     if tool is not None:
         doubt_tool(o.tool or o.markers, tool, found.arms)
-    return Worn(found.arms, found.frame, found.markers, device, wearer, tool, controllers(o, device, time))
+    led = controllers(o, device, time)
+    return Worn(found.arms, found.frame, found.markers, seen.names, device, wearer, tool, led)
 
 
 RAISED = np.radians(60.0)
@@ -256,6 +258,7 @@ def arm_table(arm: SimulatedArm) -> pd.DataFrame:
         "supporting [N]": told["in_cuff"][:, 2],
         "normal [N]": told["pressing"][:, 0],
         "shear [N]": s.shear,
+        "shear around [N]": s.shear_around,
         "sliding along [mm/s]": slide[:, 0],
         "sliding across [mm/s]": np.hypot(slide[:, 1], slide[:, 2]),
         "slip [mm]": 1e3 * s.slip,

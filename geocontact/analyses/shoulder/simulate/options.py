@@ -6,10 +6,33 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Needs, Requires, Spelled, TimeSpan, Typed
+from geocontact.analyses.frame.marks import (
+    BodyMass,
+    C3dUnit,
+    Expression,
+    Length,
+    Needs,
+    PartMass,
+    Requires,
+    Spelled,
+    TimeSpan,
+    Typed,
+)
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.shoulder.shared_options import CURRENT, Level, require_share
-from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE
+from geocontact.analyses.shoulder.shared_options import (
+    ANKLES,
+    CURRENT,
+    HAND_TOOL,
+    HEIGHT,
+    PUSH,
+    Level,
+    require_share,
+)
+from geocontact.data.errors import InputError
+from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE, MASS, SHIFT
+
+FEWEST_DRAWS, MOST_DRAWS = 20, 1000
+"""Of marker errors: the outer ones of 20 hold 90 %, more take minutes."""
 
 Elevations = Annotated[
     tuple[float, ...],
@@ -48,7 +71,8 @@ class ShoulderSimulateOptions(Options):
     dominant
         Side of the dominant hand; right by default.
     seed
-        Seed of the noise of the controller's sensors, where the device's file states it; 0 by default.
+        Seed of the noise of the controller's sensors, where the device's file states it, and of marker errors; 0 by
+        default.
     side
         Arms that are simulated.
     cuff
@@ -60,10 +84,32 @@ class ShoulderSimulateOptions(Options):
         Elevations of the shoulder at which the device's joints and forces are listed while the arm is lifted, such as
         39,129; the page opens at the first one.
 
+    The person
+    ----------
+    mass
+        Mass of the body: adds person.csv, loads of shoulder, elbow and lower back and sway, without and with the
+        device, while the person keeps the motion or the shoulder's torque. Markers of elbow, wrist and finger are
+        needed.
+    sex
+        Of the table of segments; male by default.
+    height
+        Stature [m], for the sway; the mean of the sex by default.
+    tool_mass
+        Of the tool, in the dominant hand.
+    push
+        Upward force of the dominant hand on the work while the tool runs [N].
+    ankle_stiffness
+        Stiffness of the ankles with their reflexes over m g h, more than 1; 1.5 by default (invented).
+
     The motion
     ----------
     cutoff
         Zero-lag low-pass of the markers [Hz]; 0 leaves them as they are.
+    marker_error
+        Standard deviation of how far each arm marker sits from its place, along each axis of the upper arm: adds
+        marker_band.csv, 95% bands of elevation and forces.
+    draws
+        Draws of these errors; 40 by default.
     gap_limit
         Longest time for which a marker may be out of sight [s].
     upright
@@ -86,9 +132,10 @@ class ShoulderSimulateOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes right.csv and left.csv, numbers.csv with the source of every number of the device, levers.csv with length and
-    lever of its cylinder, sensitivity.csv with `sensitivity`, at_elevation.csv with `elevations`, angles.sto,
-    interface_forces.mot and .xml (external loads for OpenSim and `geocontact id`), paraview,
-    plane (for `geocontact gap gather`), a figure, report.html (moving arms with forces) and run.json into OUT.
+    lever of its cylinder, person.csv with `mass`, marker_band.csv with `marker_error`, sensitivity.csv with
+    `sensitivity`, at_elevation.csv with `elevations`, angles.sto, interface_forces.mot and .xml (external loads for
+    OpenSim and `geocontact id`), paraview, plane (for `geocontact gap gather`), a figure, report.html (moving arms with
+    forces) and run.json into OUT.
     """
 
     markers: Path
@@ -99,13 +146,23 @@ class ShoulderSimulateOptions(Options):
     profile: Annotated[Path | None, Needs("tool", "give the tool's current, which the controller needs")] = None
     profile_name: Annotated[str | None, Requires("profile")] = None
     task: Annotated[str | None, Requires("profile")] = None
-    dominant: Annotated[Literal["right", "left"] | None, Requires("profile")] = None
-    seed: Annotated[int | None, Requires("profile")] = None
+    dominant: Annotated[Literal["right", "left"] | None, Requires("profile", alternative="mass")] = None
+    seed: Annotated[int | None, Requires("profile", alternative="marker_error")] = None
     side: Literal["both", "right", "left"] = "both"
     cuff: Literal["point", "surface"] = "point"
     sensitivity: bool = False
     elevations: Elevations | None = None
+    mass: Annotated[BodyMass | None, MASS] = None
+    sex: Annotated[Literal["female", "male"] | None, Requires("mass")] = None
+    height: Annotated[float | None, Requires("mass"), HEIGHT] = None
+    tool_mass: Annotated[PartMass | None, Requires("mass"), HAND_TOOL] = None
+    push: Annotated[
+        float | None, Requires("mass"), Needs("tool", "give `tool`, which says when it is pushed"), PUSH
+    ] = None
+    ankle_stiffness: Annotated[float | None, Requires("mass"), ANKLES] = None
     cutoff: Annotated[float, CUTOFF] = 6.0
+    marker_error: Annotated[Length | None, SHIFT] = None
+    draws: Annotated[int | None, Requires("marker_error")] = None
     gap_limit: Annotated[float, GAP] = 0.2
     upright: TimeSpan | None = None
     tool: Path | None = None
@@ -116,5 +173,8 @@ class ShoulderSimulateOptions(Options):
     time: TimeSpan | None = None
 
     def refuse_impossible(self) -> None:
-        """A level that no cylinder has."""
+        """A level that no cylinder has, draws that are too few for a band or take too long."""
         require_share(self.level, "level", "50%")
+        if self.draws is not None and not FEWEST_DRAWS <= self.draws <= MOST_DRAWS:
+            what = f"{self.draws} is not between {FEWEST_DRAWS} and {MOST_DRAWS}"
+            raise InputError("", "`draws`", what, "give for example 40")

@@ -38,7 +38,14 @@ from geocontact.analyses.shoulder.simulate.arms import (
     summary_of,
 )
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
+from geocontact.analyses.shoulder.simulate.marker_band import MarkerBand, band_table, marker_bands
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
+from geocontact.analyses.shoulder.simulate.person_answers import (
+    PersonAnswers,
+    person_answers,
+    person_curves,
+    person_table,
+)
 from geocontact.analyses.shoulder.simulate.show import arm_curves, simulation_page
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
@@ -65,6 +72,10 @@ class ShoulderSimulateResult(Result):
         All that were recorded, in the device's frame [m]; NaN where they were not seen.
     influences
         By side, where they were asked for.
+    person
+        What the person carries without and with the device; None where the mass is not stated.
+    bands
+        Of each arm under errors of its markers, where they were asked for.
     """
 
     options: ShoulderSimulateOptions
@@ -74,6 +85,8 @@ class ShoulderSimulateResult(Result):
     device: Device
     wearer: Wearer
     influences: Mapping[Side, tuple[Influence, ...]]
+    person: PersonAnswers | None = None
+    bands: tuple[MarkerBand, ...] = ()
 
     @property
     def time(self) -> dict[str, Float[np.ndarray, " t"]]:
@@ -96,8 +109,8 @@ class ShoulderSimulateResult(Result):
         return {each.side: each.simulation.told["support"][:, 0] for each in self.arms}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`right` and `left` over time, `numbers` of the device, `levers` of its cylinder, `sensitivity` and
-        `at_elevation` where they were asked for.
+        """`right` and `left` over time, `numbers` of the device, `levers` of its cylinder, `sensitivity`,
+        `at_elevation`, `person` and `marker_band` where they were asked for.
         """
         told: dict[str, pd.DataFrame] = {each.side: arm_table(each) for each in self.arms}
         told["numbers"] = numbers_table(self.device, controlled=self.options.profile is not None)
@@ -107,15 +120,25 @@ class ShoulderSimulateResult(Result):
         if self.influences:
             parts = [sensitivity_table(side, each) for side, each in self.influences.items()]
             told["sensitivity"] = pd.concat(parts, ignore_index=True)
+        if self.bands:
+            told["marker_band"] = band_table(self.bands)
+        if self.person is not None:
+            told["person"] = person_table(self.person)
         return told
 
     def curves(self) -> dict[str, CurveSheet]:
-        """`shoulder`: elevations, forces, support and passive joints of the arms over time."""
-        return {"shoulder": arm_curves(self.arms)}
+        """`shoulder`: elevations, forces, support and passive joints of the arms over time; `person`: loads and motion
+        of the person by what is kept, where the mass is stated.
+        """
+        found = {"shoulder": arm_curves(self.arms)}
+        return found if self.person is None else {**found, "person": person_curves(self.person)}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Moving arms with the forces in their cuffs, curves, tables."""
-        page = simulation_page(self.options, self.arms, self.markers, self.wearer, self.tables(), self.sentences)
+        person = None if self.person is None else person_curves(self.person)
+        page = simulation_page(
+            self.options, self.arms, self.markers, self.wearer, self.tables(), self.sentences, person
+        )
         return {REPORT: page}
 
     def write_files(self, folder: Path) -> None:
@@ -145,6 +168,7 @@ def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
     arms = tuple(simulated_along(worn, arm, o) for arm in worn.arms)
     say_reached(arms, o.elevations or ())
     note("arms", plain({each.side: summary_of(each) for each in arms}))
+    person, bands = person_answers(worn, arms, o), marker_bands(worn, arms, o)
     found = {
         each.side: tuple(influences(each.simulation.motion, worn.device, worn.wearer, o.level, o.cuff, each.factor))
         for each in (arms if o.sensitivity else ())
@@ -157,6 +181,8 @@ def run(worn: Worn, o: ShoulderSimulateOptions) -> ShoulderSimulateResult:
         device=worn.device,
         wearer=worn.wearer,
         influences=found,
+        person=person,
+        bands=bands,
     )
 
 

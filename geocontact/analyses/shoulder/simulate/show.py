@@ -50,6 +50,12 @@ FRAME = (
     "gravity turns with it, accelerations of the trunk do not act on the exoskeleton's arms."
 )
 
+KEPT = (
+    "A person who wears the device neither keeps the motion nor the shoulder's torque: both are bounds. Torque kept "
+    "means that nothing but weight and inertia resists the support. Stiffness of the ankles is invented."
+)
+PERSON = "What the person carries, without and with the device"
+
 
 def simulation_page(
     o: ShoulderSimulateOptions,
@@ -58,6 +64,7 @@ def simulation_page(
     wearer: Wearer,
     tables: Mapping[str, pd.DataFrame],
     sentences: Sequence[str],
+    person: CurveSheet | None = None,
 ) -> Page:
     """The page of simulated arms, opened where the force that lifts an arm is largest.
 
@@ -67,10 +74,13 @@ def simulation_page(
         All that were recorded, in the device's frame [m].
     tables, sentences
         Those of the result.
+    person
+        What the person carries; None where it was not asked for.
     """
     time = arms[0].simulation.motion.time
     lifting = [each.simulation.supporting for each in arms]
     shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms] + lifting)
+    answered = [FRAME] if person is None else [FRAME, KEPT]
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
         Scene(
@@ -83,6 +93,8 @@ def simulation_page(
             ],
         ),
         *arm_curves(arms).at(shown),
+        *(() if person is None else person.at(shown)),
+        *(frame_table(PERSON, tables[name], 3) for name in ("person",) if name in tables),
         Readout([row for each in arms for row in _phases(each, shown)]),
         *(frame_table(AT, tables[name], 3) for name in ("at_elevation",) if name in tables and len(tables[name])),
         *(frame_table("What each number of the device changes, root mean square", table) for table in changed),
@@ -90,7 +102,7 @@ def simulation_page(
         frame_table("Numbers of the device, and where they are from", tables["numbers"]),
         INPUTS,
         OPTIONS,
-        Words("What the numbers do not contain", [SURFACE if o.cuff == "surface" else POINT, FRAME, NOT_A_DEVICE]),
+        Words("What the numbers do not contain", [SURFACE if o.cuff == "surface" else POINT, *answered, NOT_A_DEVICE]),
     ]
     return Page(
         title=f"Shoulder exoskeleton along {o.markers.name}",

@@ -180,10 +180,14 @@ def _report(r: StandingCompareResult) -> None:
 
 
 def nearer_than_both(errors: pd.DataFrame) -> tuple[int, int]:
-    """Channels that are not given and on which the prediction is nearer than both baselines, of how many."""
+    """Channels that are not given and on which the prediction is nearer than both baselines, of how many; one that
+    the calibration's trials do not have has no baseline and does not count.
+    """
     best = errors[errors["predictor"] == ALL].set_index(["trial", "quantity"])["rmsd"]
     others = errors[errors["predictor"].isin(BASELINES)].groupby(["trial", "quantity"])["rmsd"].min()
+    others = others.dropna()
     free = errors[(errors["predictor"] == ALL) & (errors["given"] == "no")].set_index(["trial", "quantity"]).index
+    free = free.intersection(others.index)
     return int((best[free] < others[free]).sum()), len(free)
 
 

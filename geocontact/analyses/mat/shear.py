@@ -1,0 +1,127 @@
+"""Shear of a two-axis mat on its surface: force and moment over time, beside the friction limit of its pressures.
+
+A cell of area A with shear stresses τ_r and τ_c passes A (τ_r t_r + τ_c t_c) on to the body at its centre; t_r and t_c
+are the directions of growing row and column on the surface, from the cell's corners, across the cell's normal.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from jaxtyping import Float
+
+from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.mat.placed import MatInputs, PlacedMat
+from geocontact.analyses.mat.recording import TOUCH, Travel
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit
+from geocontact.loads.mat_load import MatLoad
+
+FRICTION = 1.0
+"""Static friction that shear is compared with where none is stated: rubber; textiles on skin have less."""
+
+
+@dataclass(frozen=True, eq=False)
+class MatShear:
+    """Shear of the mat on the body, in the frame of the loads and about their point.
+
+    Parameters
+    ----------
+    force, moment
+        Of all cells [N], [N m].
+    size
+        Sum over the cells of shear stress times area, whichever way it points [N].
+    limit
+        `size` beside friction times the sum of pressure times area.
+    cells_beyond
+        Share of loaded cells and frames whose own shear stress exceeds friction times their pressure.
+    """
+
+    force: Float[np.ndarray, "t 3"]
+    moment: Float[np.ndarray, "t 3"]
+    size: Float[np.ndarray, " t"]
+    limit: FrictionLimit
+    cells_beyond: float
+
+
+def mat_shear(
+    given: MatInputs,
+    there: PlacedMat,
+    frames: PressureFrames,
+    pressed: tuple[Float[np.ndarray, "t n"], MatLoad],
+    travel: Travel | None,
+    o: MatOptions,
+) -> MatShear | None:
+    """None of a mat without shear; says its largest force and how it stands beside friction.
+
+    Parameters
+    ----------
+    pressed
+        Pressures of the cells on the surface [Pa], and their load.
+    """
+    if given.shear is None:
+        return None
+    pressure, whole = pressed
+    kept = np.flatnonzero(np.abs(given.recorded.time[:, None] - frames.time[None]).min(axis=1) <= TOUCH)
+    along, across = (there.cells.of(each.pressure[kept]) for each in given.shear)
+    rows, columns = tangents(there)
+    area, centre = there.cells.area, there.cells.centre
+    each = area[:, None] * (along[..., None] * rows + across[..., None] * columns)
+    force, origin = each.sum(axis=1), whole.wrench.origin
+    moment = np.cross(centre[None], each).sum(axis=1)
+    if travel is not None:
+        turn = travel.poses.rotation
+        force, moment = turn.apply(force), turn.apply(moment) + np.cross(travel.poses.translation, turn.apply(force))
+    moment = moment - np.cross(origin, force)
+    stress = np.linalg.norm(along[..., None] * rows + across[..., None] * columns, axis=2)
+    mu = FRICTION if o.friction is None else o.friction
+    size = stress @ area
+    loaded = pressure >= o.touched
+    beyond = float(np.mean(stress[loaded] > mu * pressure[loaded])) if loaded.any() else 0.0
+    found = MatShear(np.asarray(force), np.asarray(moment), size, friction_limit(size, whole.pressing, mu), beyond)
+    _report(found, frames.time)
+    return found
+
+
+def tangents(there: PlacedMat) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """Unit directions of growing row and of growing column of each cell on the surface."""
+    row, column = there.cells.cell.T
+    nodes, normal = there.drape.nodes, there.drape.normal[row, column]
+    corners = {(i, j): nodes[row + i, column + j] for i in (0, 1) for j in (0, 1)}
+    down = corners[1, 0] + corners[1, 1] - corners[0, 0] - corners[0, 1]
+    right = corners[0, 1] + corners[1, 1] - corners[0, 0] - corners[1, 0]
+    flat = (each - np.einsum("ni,ni->n", each, normal)[:, None] * normal for each in (down, right))
+    first, second = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in flat)
+    return np.asarray(first), np.asarray(second)
+
+
+def shear_table(found: MatShear, normal: Float[np.ndarray, " t"], time: Float[np.ndarray, " t"]) -> pd.DataFrame:
+    """Force and moment of the shear alone, its size beside the sum of pressure times area, and their ratio; empty
+    where nothing presses.
+    """
+    ratio = np.divide(found.size, normal, out=np.full(len(time), np.nan), where=normal > 0.0)
+    return pd.DataFrame(
+        {
+            "time [s]": time,
+            **{f"f{axis} [N]": found.force[:, k] for k, axis in enumerate("xyz")},
+            **{f"m{axis} [N m]": found.moment[:, k] for k, axis in enumerate("xyz")},
+            "shear [N]": found.size,
+            "normal [N]": normal,
+            "shear over normal [-]": ratio,
+        }
+    )
+
+
+def _report(found: MatShear, time: Float[np.ndarray, " t"]) -> None:
+    limit, most = found.limit, int(np.argmax(found.size))
+    say(
+        f"shear up to {found.size[most]:.1f} N at {time[most]:g} s (sum of shear stress × area), over the normal "
+        f"force: median {limit.usual:.2f}, at most {limit.largest:.2f}"
+    )
+    if not limit.kept:
+        what = f"shear exceeds friction {limit.friction:g} times the normal force for {limit.beyond:.0%} of the time"
+        reserve(f"{what}, first at {time[limit.first]:g} s: {CAUSES}")
+    note("shear", {"friction": limit.friction, "beyond": limit.beyond, "cells_beyond": found.cells_beyond})

@@ -1,0 +1,82 @@
+"""Sway of a person under what changes while an exoskeleton is worn: an inverted pendulum about the ankles.
+
+A uniform rod from the ankles to the vertex leans by θ, positive forwards:
+
+    J θ'' = (m g h - K) θ - B θ' + M(t)        J = m L²/3, h = L/2
+
+M is the change of the moment about the ankles. K is what ankles and their reflexes do together, in units of m g h: the
+ankles alone have 0.91 ± 0.23 of it and hold nobody up (Loram & Lakie 2002, J Physiol 545:1041). Stiffness by default
+and damping are invented; what follows from them is of the order of the answer, not its size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+from scipy.signal import lsim
+
+GRAVITY = 9.80665
+"""m/s²."""
+ANKLE = 0.039
+"""Height of the ankles over the stature (Winter 2009, Biomechanics and Motor Control, fig. 4.1)."""
+INTRINSIC = 0.91
+"""Stiffness of the ankles without reflexes over m g h (Loram & Lakie 2002)."""
+STIFFNESS, DAMPING = 1.5, 0.7
+"""Stiffness over m g h, and damping over the critical one of what it leaves; invented."""
+
+
+@dataclass(frozen=True)
+class InvertedPendulum:
+    """A person who stands.
+
+    Parameters
+    ----------
+    mass, height
+        Of the person [kg], [m].
+    stiffness
+        K over m g h, more than 1. ValueError for one that lets the person fall.
+    damping
+        B over 2 sqrt(J (K - m g h)).
+    """
+
+    mass: float
+    height: float
+    stiffness: float = STIFFNESS
+    damping: float = DAMPING
+
+    def __post_init__(self) -> None:
+        if not self.stiffness > 1.0:
+            raise ValueError(f"a stiffness of {self.stiffness:g} m g h holds nobody up: more than 1 is needed")
+
+    @property
+    def length(self) -> float:
+        """Ankles to vertex [m]."""
+        return self.height * (1.0 - ANKLE)
+
+    @property
+    def toppling(self) -> float:
+        """m g h [N m/rad]."""
+        return self.mass * GRAVITY * 0.5 * self.length
+
+    @property
+    def inertia(self) -> float:
+        """J [kg m²]."""
+        return self.mass * self.length**2 / 3.0
+
+    @property
+    def left(self) -> float:
+        """K - m g h [N m/rad]."""
+        return (self.stiffness - 1.0) * self.toppling
+
+    def sway(self, time: Float[np.ndarray, " t"], moment: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+        """Lean [rad] under a moment [N m] at even times, from the equilibrium under its first value; exact for one that
+        is linear between them.
+        """
+        b = 2.0 * self.damping * np.sqrt(self.inertia * self.left)
+        matrix = np.array([[0.0, 1.0], [-self.left / self.inertia, -b / self.inertia]])
+        drive, seen = np.array([[0.0], [1.0 / self.inertia]]), np.array([[1.0, 0.0]])
+        start = np.array([moment[0] / self.left, 0.0])
+        _, found, _ = lsim((matrix, drive, seen, np.zeros((1, 1))), moment, time - time[0], X0=start)
+        return np.asarray(found)

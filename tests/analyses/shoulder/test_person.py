@@ -1,0 +1,123 @@
+"""Loads of the person without and with the device: what is written, beside `id` with the written external loads."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
+from geocontact.data.wrench import Wrench
+from tests.analyses.shoulder.test_simulate import still_arms
+
+TRIAL = "meshes/overhead_P1T1S100"
+
+
+@cache
+def found() -> ShoulderSimulateResult:
+    """A second and a half, both arms."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        return gc.shoulder.simulate(
+            f"{TRIAL}/markers.trc", tool=f"{TRIAL}/tool.csv", level=1.0, upright="0:0.5", mass="82kg", tool_mass="1.3kg"
+        )
+
+
+def of(name: str, where: str) -> dict[str, np.ndarray]:
+    person = found().person
+    assert person is not None
+    return next(dict(each.by) for each in person.quantities if each.name == name and each.where == where)
+
+
+def test_the_back_s_change_is_that_of_id_with_the_written_loads(tmp_path: Path) -> None:
+    """Trunk and arms without mass are held at the ground's origin by the opposite of all loads: moved to the hips."""
+    result = found()
+    folder = result.write(tmp_path / "out")
+    model, motion = still_arms(tmp_path, result.arms[0].simulation.motion.time)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        id_found = gc.inverse_dynamics(motion, model=model, loads=folder / "interface_forces.xml", cutoff=0.0)
+    values = dict(zip(id_found.forces.names, np.asarray(id_found.forces.values).T, strict=True))
+    force, moment = (
+        np.sum(
+            [np.column_stack([values[f"{b}_{k}{a}_{w}"] for a in "xyz"]) for b in ("humerus_r", "humerus_l", "torso")],
+            axis=0,
+        )
+        for k, w in (("t", "force"), ("r", "moment"))
+    )
+    frame = result.frame
+    middle = np.mean([each.simulation.motion.shoulder for each in result.arms], axis=(0, 1)) * [0.0, 1.0, 1.0]
+    hips = frame.origin + np.einsum("tji,j->ti", frame.rotation, middle - [0.0, 0.0, result.wearer.torso])
+    held = Wrench(force, moment, np.zeros_like(hips), "ground").moved_to(hips).moment
+    back = of("extending torque", "lower back")
+    change = back["motion kept"] - back["without"]
+    np.testing.assert_allclose(change, -np.einsum("ti,ti->t", frame.rotation[:, 0], held), atol=0.02)
+    assert np.abs(change).max() > 1.0
+
+
+def test_the_shoulder_s_change_is_the_moment_of_the_cuff() -> None:
+    """By hand in the device's frame; nothing changes at the elbow, and the kept torque is that without the device."""
+    result = found()
+    for arm in result.arms:
+        s = arm.simulation
+        torque, elbow = (
+            of(name, f"{arm.side} arm") for name in ("raising torque of the shoulder", "bending torque of the elbow")
+        )
+        reach = s.motion.interface - s.motion.shoulder
+        axis = np.cross([0.0, 0.0, -1.0], reach)
+        axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+        lifted = np.einsum("ti,ti->t", axis, np.cross(reach, s.told["force"]))
+        np.testing.assert_allclose(torque["without"] - torque["motion kept"], lifted, atol=0.3)
+        np.testing.assert_array_equal(elbow["without"], elbow["motion kept"])
+        kept = torque["torque kept"]
+        np.testing.assert_allclose(kept, torque["without"][: len(kept)])
+
+
+def test_the_table_has_both_bounds_and_says_how_long() -> None:
+    result = found()
+    table = result.tables()["person"].set_index(["part", "where", "quantity", "size"])
+    whole = table.loc[("whole recording", "right arm", "raising torque of the shoulder", "mean")]
+    torque = of("raising torque of the shoulder", "right arm")
+    assert whole["without"] == pytest.approx(torque["without"].mean())
+    assert np.isnan(whole["torque kept"])
+    until = table.loc[("until an arm leaves its range", "right arm", "elevation", "largest")]
+    assert until["torque kept"] > until["motion kept"] == until["without"]
+    assert until["to [s]"] < 2.5
+    assert any(line.startswith("right arm, torque kept: leaves its range at 1.") for line in result.sentences)
+    assert "What the person carries" in str(result.pages({})["report.html"])
+    assert {"shoulder", "person"} == set(result.curves())
+    person = result.person
+    assert person is not None
+    assert max(kept.unexplained for kept in person.kept.values()) < 0.1
+
+
+def test_one_arm_has_no_back_and_ankles_must_hold() -> None:
+    given = {"level": 1.0, "upright": "0:0.5", "mass": 82.0}
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        one = gc.shoulder.simulate(f"{TRIAL}/markers.trc", side="right", time="0:1", **given)
+    assert any("lower back and sway need both arms" in str(each.message) for each in seen)
+    assert set(one.tables()["person"]["where"]) == {"right arm"}
+    warnings.simplefilter("ignore", gc.InputWarning)
+    with pytest.raises(gc.InputError, match=r"0\.91 m g h holds nobody up"):
+        gc.shoulder.simulate(f"{TRIAL}/markers.trc", time="0:1", ankle_stiffness=0.91, **given)
+
+
+def test_markers_of_the_hand_are_needed(tmp_path: Path) -> None:
+    """Without the wrist's marker the weight of the forearm is not known."""
+    with pytest.raises(gc.InputError, match="no marker RWRI, which the weight of the right arm needs"):
+        gc.shoulder.simulate(f"{TRIAL}/markers.trc", side="right", markers_map="RWRI=ELSEWHERE", mass=82.0, level=1.0)
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(gc.InputError, match="`push`"):
+        gc.shoulder.simulate(f"{TRIAL}/markers.trc", mass=82.0, push=35.0)
+
+
+def test_the_written_table_is_read_back(tmp_path: Path) -> None:
+    folder = found().write(tmp_path / "out")
+    table = pd.read_csv(folder / "person.csv")
+    assert list(table.columns[-3:]) == ["without", "motion kept", "torque kept"]
