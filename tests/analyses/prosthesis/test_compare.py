@@ -7,12 +7,13 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
-from geocontact.analyses.prosthesis.compare.show import comparison_curves
+from geocontact.analyses.prosthesis.compare.show import comparison_curves, in_words
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.quantity_words import small_force
 from tests.cli.calls import MESHES
@@ -146,3 +147,12 @@ def test_what_all_stances_are_warned_of_is_one_line(tmp_path: Path) -> None:
 def test_a_small_force_below_a_constant_is_judged_by_its_error() -> None:
     assert small_force("medio_lateral", -2.565).endswith("R² is -2.56; this force is small: judge by its error")
     assert not small_force("resultant", -8.18) and not small_force("medio_lateral", 0.2)
+
+
+def test_counts_of_better_stances_are_no_answers() -> None:
+    """One of one is 1, not yes; whether a stance is better is yes or no, also where another row has no answer."""
+    counts = pd.DataFrame({"quantity": ["resultant", "stance"], "better": [1.0, np.nan], "trials": [1, 1]})
+    assert list(in_words(counts)["better"].dropna()) == [1.0]
+    answers = pd.DataFrame({"quantity": ["resultant", "vertical", "stance"], "better": [True, False, np.nan]})
+    assert list(in_words(answers)["better"]) == ["yes", "no", ""]
+    assert list(in_words(answers)["quantity"]) == ["resultant force", "vertical force", "length of the stance"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.calibration.calibrate import bounded_fit, linear_rows
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import Errors, RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import NO_BALANCE, SoleResiduals
 from geocontact.below_knee_prosthesis.calibration.whole_model import WholeResiduals
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -65,7 +65,8 @@ def test_whole_by_hand(monkeypatch: pytest.MonkeyPatch) -> None:
             self.shown = rng.normal(size=(count, 4))
             measured = rng.normal(size=(count, 4))
             measured[1, 3] = np.nan
-            self.stance = type("S", (), {"recorded": type("R", (), {"measured": measured})})
+            fields = {"measured": measured, "standing": "", "errors": Errors()}
+            self.stance = type("S", (), {"recorded": type("R", (), fields)})
 
         def channels(self, shown: np.ndarray) -> np.ndarray:
             return shown

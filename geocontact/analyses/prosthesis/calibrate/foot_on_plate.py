@@ -107,7 +107,7 @@ def further_stances(o: ProsthesisCalibrateOptions) -> list[AskedStance]:
         what = f"stances of {', '.join(names)}: a sole is one person's"
         raise InputError(o.further, "[[trials]]", what, "keep those of one person, or mark them as calibrated")
     person = study.persons[names[0]]
-    _require_person(person, names[0], o)
+    _require_person(person, names[0], o, o.further)
     for each in own:
         if each.ground is not None:
             what = f"{each.name} is on another ground, and a calibration is on the floor y = 0"
@@ -133,17 +133,17 @@ SAME_MASS = 0.02
 """Relative difference of two masses that are those of one person."""
 
 
-def _require_person(person: GaitPerson, name: str, o: ProsthesisCalibrateOptions) -> None:
+def _require_person(person: GaitPerson, name: str, o: ProsthesisCalibrateOptions, file: Path) -> None:
     """InputError where the person of the study is not the one that the options describe."""
     if abs(person.mass / o.mass - 1.0) > SAME_MASS:
         what = f"{name} has {person.mass:g} kg, `mass` is {o.mass:g} kg"
-        raise InputError(o.further, f"[persons.{name}] mass", what, "a sole is calibrated on stances of one person")
+        raise InputError(file, f"[persons.{name}] mass", what, "a sole is calibrated on stances of one person")
     if person.side != o.side:
         what = f"the prosthesis is on the {person.side}, `side` is {o.side}"
-        raise InputError(o.further, f"[persons.{name}] side", what, "correct one of them")
+        raise InputError(file, f"[persons.{name}] side", what, "correct one of them")
     if person.foot is not None and (o.foot is None or not _same(person.foot, o.foot)):
         what = "another foot than `foot`"
-        raise InputError(o.further, f"[persons.{name}] foot", what, "a sole is calibrated on one foot")
+        raise InputError(file, f"[persons.{name}] foot", what, "a sole is calibrated on one foot")
 
 
 def _same(one: Path, other: Path) -> bool:

@@ -103,11 +103,16 @@ def in_words(table: pd.DataFrame) -> pd.DataFrame:
     shown = table.dropna(axis="columns", how="all")
     shown = shown.drop(columns=[name for name in shown if (shown[name] == "").all()])
     for name in shown.columns:
-        if name in ("calibrated", "outlier", "better") and set(shown[name].dropna().unique()) <= {True, False}:
+        if name in ("calibrated", "outlier", "better") and _yes_or_no(shown[name]):
             shown = shown.assign(**{name: [{True: "yes", False: "no"}.get(each, "") for each in shown[name]]})
     if "quantity" in shown:
         shown = shown.assign(quantity=[NAMES.get(each, each) for each in shown["quantity"]])
     return shown
+
+
+def _yes_or_no(column: pd.Series) -> bool:
+    """Whether every value that is known is true or false; a count of 0 or 1 is neither."""
+    return all(isinstance(each, bool | np.bool_) for each in column.dropna())
 
 
 def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.DataFrame]) -> Page:
