@@ -79,7 +79,7 @@ def test_weights_of_a_study_are_not_those_of_a_design(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_place_at_the_pelvis_is_chosen_for_the_strap_there(tmp_path: Path) -> None:
-    """From one trial with mats at the pelvis; the peak there is no higher than without help, and a column of its own."""
+    """From one trial with mats at the pelvis: the peak there is no higher than without help."""
     study = tmp_path / "study.toml"
     parts = (SESSION / "study.toml").read_text().split("\n[[trials]]")
     study.write_text(
