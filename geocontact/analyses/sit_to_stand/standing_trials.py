@@ -277,7 +277,7 @@ def _movement(files: StandingTrialFiles, place: str, time: Times, height: Times,
     return np.asarray((time >= one.start) & (time <= one.end))
 
 
-def _off_the_seat(task: str, time: Times, own: Times, force: Times) -> Used:
+def _off_the_seat(task: str, time: Times, own: Float[np.ndarray, " s"], force: Float[np.ndarray, " s"]) -> Used:
     """Times from seat-off on, or up to seat contact."""
     if task == "sitting down":
         return np.asarray(time < seat_contact(own, force))
