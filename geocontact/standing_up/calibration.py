@@ -24,7 +24,7 @@ from geocontact.standing_up.numbers_that_ran import (
 )
 from geocontact.standing_up.phase import PhaseProblem, sizes_of
 from geocontact.standing_up.phases import TRACKS, phase_a, phase_b
-from geocontact.standing_up.selection import selected, trials_information
+from geocontact.standing_up.selection import SelectedParameter, selected, trials_information
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trial_result import TrialResult, trial_result
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials, seen_in
@@ -69,7 +69,7 @@ def calibrated_phases(
     known = held_covariance(first.numbers, first.phase.parameters)
 
     def held_in_b(free: Sequence[str]) -> Float[np.ndarray, "p p"]:
-        return known + believed_covariance(model.parameters, [name for name in straps if name not in free])
+        return np.asarray(known + believed_covariance(model.parameters, [name for name in straps if name not in free]))
 
     second = _phase("B", model, given, build_b, (straps, straps), search, in_phase_b, held_in_b)
     return first, second
@@ -98,15 +98,21 @@ def _phase(
     one = solved(usual_free, replace(search, resamples=0, starts=0, profiles=0) if search.select else search)
     if not one.found.solved:
         return one
-    try:
-        whole = build(given.trials, one.found.p, every)
-        chosen = selected(whole.free, trials_information(whole, one.found))
-    except (ValueError, np.linalg.LinAlgError):
+    chosen = selection_among(one, build(given.trials, one.found.p, every))
+    if not chosen:
         return one
     free = [of.name for of in chosen if of.outcome == "identified"]
     if search.select and free:
         one = solved(free, search)
     return replace(one, selection=chosen)
+
+
+def selection_among(one: CalibratedPhase, whole: PhaseProblem) -> tuple[SelectedParameter, ...]:
+    """Selection of the parameters that `whole` frees, about an answer; none where the curvature does not exist."""
+    try:
+        return selected(whole.free, trials_information(whole, one.found))
+    except (ValueError, np.linalg.LinAlgError):
+        return ()
 
 
 def _with_free(build: BuildFree, free: Sequence[str], trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:

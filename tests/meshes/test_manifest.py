@@ -168,5 +168,5 @@ def test_generator_reproduces_every_byte():
     assert done.returncode == 0, done.stdout + done.stderr
     # by make_gait.py and make_standing.py: digits depend on the compiler
     simulated = [file for file in FILES if str(file).startswith(("gait_P1", "amputee_P1", "standing_up"))]
-    assert len(simulated) == 6 + 4 + 11 + 17 + 7 + 2
+    assert len(simulated) == 6 + 4 + 11 + 17 + 7 + 2 + 18
     assert f"{len(FILES) - len(simulated)} files" in done.stdout

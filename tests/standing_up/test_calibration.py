@@ -57,7 +57,8 @@ def test_b_follows_where_a_was_solved_and_holds_its_feet(
         return SimpleNamespace(name=name, found=found, numbers=None, phase=SimpleNamespace(parameters=model.parameters))
 
     monkeypatch.setattr(calibration, "calibrated_phase", searched)
-    monkeypatch.setattr(calibration, "held_covariance", lambda numbers, parameters: None)
+    monkeypatch.setattr(calibration, "held_covariance", lambda numbers, parameters: np.zeros((len(parameters),) * 2))
+    monkeypatch.setattr(calibration, "selection_among", lambda one, whole: ())
     found = calibrated_phases(given, PhaseSearch(OPTIONS), lambda *words: told.append(words))
     assert "".join(phase.name for phase in found) == names  # type: ignore[misc]
     assert told == [(name, 3, 2.0, 1.0) for name in names]

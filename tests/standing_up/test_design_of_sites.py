@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,9 @@ import pytest
 from casadi import Function
 
 import geocontact as gc
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.sit_to_stand.design.designs import read
+from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.standing_up.assistance_design import NAMES
 from geocontact.standing_up.assisted_model import EVERY_ASSISTED, SHARE, assisted_model
 from geocontact.standing_up.assisted_movement import measures_of
@@ -18,6 +22,7 @@ from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from meshes.standing_study import SITES_PLANTED
 from tests.cli.calls import MESHES
+from tests.recording import opened
 
 SESSION = MESHES / "standing_up_sites"
 SITES = tuple(replace(site, damping=7.0 + k, turning_damping=0.2 + 0.1 * k) for k, site in enumerate(STRAP_SITES))
@@ -57,9 +62,24 @@ def test_a_strap_that_is_not_there_cannot_be_chosen(options: dict[str, str], wor
         gc.sit_to_stand.design(MESHES / "standing_up_held_out" / "study.toml", parameters=planted, **options)
 
 
+def test_weights_of_a_study_are_not_those_of_a_design(tmp_path: Path) -> None:
+    """A warning, and everything else is read."""
+    sample = MESHES / "standing_up_held_out"
+    for file in sample.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    study = tmp_path / "study.toml"
+    study.write_text(study.read_text().replace("[noise]", "[weights]\ntorques = 2e-6\n\n[noise]"))
+    record = opened(Record("sit-to-stand design", {}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        given = read(StandingDesignOptions(study, parameters=MESHES / "standing_up_exoskeleton" / "truth.csv"))
+    assert given.trials.weights.torques == 2e-6 and len(given.p) == 13
+    assert any("a design has its own" in line for line in record.warnings)
+
+
 @pytest.mark.slow
 def test_a_place_at_the_pelvis_is_chosen_for_the_strap_there(tmp_path: Path) -> None:
-    """No place tried by itself between the bounds has a lower peak, as far as a smooth minimum is flat."""
+    """From one trial with mats at the pelvis: the peak there is no higher than without help."""
     study = tmp_path / "study.toml"
     parts = (SESSION / "study.toml").read_text().split("\n[[trials]]")
     study.write_text(
@@ -68,7 +88,9 @@ def test_a_place_at_the_pelvis_is_chosen_for_the_strap_there(tmp_path: Path) -> 
         )
     )
     given = {"parameters": SESSION / "truth.csv", "aim": "pelvis", "nodes": 8, "knee": 1.0}
-    found = gc.sit_to_stand.design(study, vary="share,pelvis_place", **given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.sit_to_stand.design(study, vary="share,pelvis_place", **given)
     best = found.best.movement.asked.at("pelvis")
     rows = found.table("designs").set_index("design")
     assert best <= rows.loc["without help", "pelvis [N]"] and 0.0 <= found.chosen["pelvis_place"] <= 0.22

@@ -31,7 +31,7 @@ from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, S
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
-from geocontact.standing_up.strap_sites import strap_sites
+from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_sites
 from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
@@ -72,7 +72,8 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
-    sites = tuple(replace(site, **study.straps) for site in sites)
+    damped = study.straps.get("damping", DAMPING), study.straps.get("turning_damping", TURNING_DAMPING)
+    sites = tuple(replace(site, damping=damped[0], turning_damping=damped[1]) for site in sites)
     noise = StandingNoise(**study.noise)
     names = tuple(site.name for site in sites[1:])
     _warn_of_copies(study.trials)
@@ -319,7 +320,7 @@ def _movement(files: StandingTrialFiles, place: str, time: Times, height: Times,
     return np.asarray((time >= one.start) & (time <= one.end))
 
 
-def _off_the_seat(task: str, time: Times, own: Times, force: Times) -> Used:
+def _off_the_seat(task: str, time: Times, own: Float[np.ndarray, " s"], force: Float[np.ndarray, " s"]) -> Used:
     """Times from seat-off on, or up to seat contact."""
     if task == "sitting down":
         return np.asarray(time < seat_contact(own, force))

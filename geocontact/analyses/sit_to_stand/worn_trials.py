@@ -66,7 +66,7 @@ def worn_device(study: StandingStudy, file: Path) -> WornDevice:
 
 def joint_torques(
     files: StandingTrialFiles, device: WornDevice, time: Times, angles: Table, used: Used, noise: float
-) -> Table | None:
+) -> Float[np.ndarray, "u j"] | None:
     """Torques of all joints at the times that are used [N m]; None where a trial has none.
 
     Those of the exoskeleton are in the same file, or its motors' less friction, or friction alone where it does not
@@ -116,7 +116,7 @@ def _doubt_mode(files: StandingTrialFiles, torque: Table, noise: float) -> None:
         reserve(f"{files.name}: mode active, and torques of {size:.2g} N m (root mean square): it does not help")
 
 
-def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Table:
+def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Float[np.ndarray, "t c"]:
     """Columns as they are, in SI, at the times of the trial."""
     table = read_table(file)
     add_input(role, file, frames=len(table.time))

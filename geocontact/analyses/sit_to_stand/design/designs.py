@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows
@@ -22,7 +22,7 @@ from geocontact.standing_up.assisted_movement import UNITS
 from geocontact.standing_up.help_search import CertifiedDesign, DrawnGain
 from geocontact.standing_up.prediction import contact_parameters
 from geocontact.standing_up.strap_sites import ContactParameter, deviations, searched
-from geocontact.standing_up.trials import StandingUpTrials
+from geocontact.standing_up.trials import SHIPPED, StandingUpTrials
 
 PERSONS = ("share", "timing")
 FURTHER = ("shank", "pelvis")
@@ -54,6 +54,8 @@ def read(o: StandingDesignOptions) -> TrialsToHelp:
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)
+    if trials.weights != SHIPPED:
+        reserve(f"{o.study.name}: [weights] are those of calibrations and predictions: a design has its own")
     known = contact_parameters(trials.sites)
     names = {each.name for each in known}
     odd = [name for name in o.varied if name not in PERSONS and ROOM[name][0] not in names]

@@ -37,7 +37,6 @@ from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.exoskeleton_torque import (
     ALONE,
     MARGIN,
-    TURNS,
     UNITS,
     UNTOLD,
     DeviceMotion,
@@ -47,6 +46,7 @@ from geocontact.standing_up.exoskeleton_torque import (
     identified_from,
 )
 from geocontact.standing_up.numbers_that_ran import Ran, joint_numbers
+from geocontact.standing_up.worn_device import TURNS
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
 from geocontact.view.page.content import Section
 from geocontact.view.page.tables import frame_table
