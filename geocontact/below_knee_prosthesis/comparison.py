@@ -47,6 +47,15 @@ def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]
     return found
 
 
+CALIBRATED = "calibrated"
+
+
+def by_setting_and_calibrated(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:
+    """The same with those that a sole was fitted to as a group of their own, last, as the study's figure 3 has them."""
+    fitted = [one for one in stances if one.calibrated]
+    return by_setting(stances) | ({CALIBRATED: fitted} if 0 < len(fitted) < len(stances) else {})
+
+
 @dataclass(frozen=True, eq=False)
 class QuantityErrors:
     """One quantity of one stance: errors of the model and of the predictors without one.
@@ -96,11 +105,14 @@ class Ensemble:
 
 
 def ensembles(stances: Sequence[JudgedStance]) -> dict[str, list[Ensemble]]:
-    """By setting: simulated, measured, and by the predictors without a model, each over the same stances."""
+    """By setting: simulated, measured, and by the predictors without a model, each over the same stances.
+
+    Stances that a sole was fitted to are a group of their own.
+    """
     plain = {name: plain_curves(stances, name) for name in QUANTITIES}
     return {
         setting: [one for name in QUANTITIES for one in _ensembles(own, name, plain[name])]
-        for setting, own in by_setting(stances).items()
+        for setting, own in by_setting_and_calibrated(stances).items()
     }
 
 

@@ -85,20 +85,21 @@ def surface_energy(each: Identification) -> SurfaceEnergy | None:
     least = each.model.frames[int(np.argmin(each.measured))]
     radius = float(np.interp(least, evolution.time, evolution.with_offsets(values).radius))
     one = each.told_apart[f"E*, {WORK}"].verdict == "one number"
-    ends = (sticks.pull_off(radius, work) for work in (p.best, p.lower, p.upper))
     without = each.model.force({**values, WORK: 0.0})
     return SurfaceEnergy(
-        sticks.law,
-        p.best,
-        p.lower,
-        p.upper,
-        not p.lower_open,
-        not p.upper_open,
-        not one,
-        *ends,
-        radius,
-        _as_zero(each),
-        float(np.mean(without - each.predicted)),
+        law=sticks.law,
+        work=p.best,
+        lower=p.lower,
+        upper=p.upper,
+        from_none=not p.lower_open,
+        limited=not p.upper_open,
+        from_modulus=not one,
+        pull_off=sticks.pull_off(radius, p.best),
+        weakest=sticks.pull_off(radius, p.lower),
+        strongest=sticks.pull_off(radius, p.upper),
+        radius=radius,
+        as_zero=_as_zero(each),
+        zero=float(np.mean(without - each.predicted)),
     )
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -107,7 +108,7 @@ def answer(asked: str, found: str) -> None:
     np.savez(found, names=[each.getName() for each in muscles], strongest=strongest, arms=arms, pulls=pulls)
 
 
-def _pull(opensim, muscle, state, beyond):  # type: ignore[no-untyped-def]
+def _pull(opensim: Any, muscle: Any, state: Any, beyond: set[str]) -> Float[np.ndarray, " 3"]:
     """Sum of the unit forces of its path's points on these bodies."""
     points = opensim.ArrayPointForceDirection()
     muscle.getGeometryPath().getPointForceDirections(state, points)

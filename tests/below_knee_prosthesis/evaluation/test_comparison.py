@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.analyses.prosthesis.compare.show import comparison_curves
 from geocontact.below_knee_prosthesis.comparison import (
     against_predictors,
     by_setting,
+    by_setting_and_calibrated,
     curves_of,
     ensembles,
     odd_stances,
@@ -68,6 +70,13 @@ def test_what_a_sole_was_fitted_to_is_apart(study: list[JudgedStance]) -> None:
         "high": ["c"],
     }
     assert list(by_setting([fitted[0]])) == ["low"]
+    shown = by_setting_and_calibrated(fitted)
+    assert [(name, [one.name for one in own]) for name, own in shown.items()][-1] == ("calibrated", ["a"])
+    assert "calibrated" not in by_setting_and_calibrated(study)
+    own = {one.label: one for one in ensembles(fitted)["calibrated"]}
+    np.testing.assert_allclose(own["vertical"].mean, study[0].simulated("vertical"), rtol=1e-12)
+    panels = comparison_curves(fitted).panels[:3]
+    assert panels[2].title.endswith("calibrated, 1 stance")
     assert list(odd_stances(fitted)) == ["b", "c"]
 
 

@@ -59,14 +59,17 @@ class IdOptions(Options):
     exclude
         Passive forces of the model (coordinate limits, springs, bushings) that are left out, by name, by group of its
         force set, or all. May be given again. Muscles and actuators never act here.
+
+    Muscles
+    -------
     muscles
         Also estimate muscle forces: least squared activation that makes the moments. Needs the opensim package, for
         paths of muscles.
     across
         Body beyond a joint whose contact force is computed from muscles and load: tibia_r for a knee.
     held
-        Measured contact force of that joint over time (.csv .mot .sto): total, or medial and lateral, as of `geocontact
-        loadcells` or settle.csv. Muscles have to make it as well.
+        Measured contact force of that joint over time (.csv .mot .sto): total, or medial and lateral, as forces.csv of
+        `geocontact loadcells`. Muscles have to make it as well.
     held_unit
         Unit of these forces, unless each column says it.
     """

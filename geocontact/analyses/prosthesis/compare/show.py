@@ -14,7 +14,7 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.prosthesis.compare.changes import READ as CHANGES
 from geocontact.analyses.prosthesis.quantity_words import NAMES
-from geocontact.below_knee_prosthesis.comparison import by_setting, curves_of, plain_curves
+from geocontact.below_knee_prosthesis.comparison import by_setting_and_calibrated, curves_of, plain_curves
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.data.motion import Course
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
@@ -37,8 +37,8 @@ ANSWERED = {
 """Quantities of the headline, with unit and factor."""
 STROKES = {"plate": INK, "model": stroke(0), MEAN: stroke(1, 1), ANOTHER: stroke(2, 2)}
 """One thing looks alike in all panels."""
-WIDEST = 3
-"""Settings side by side in the figure."""
+WIDEST = 4
+"""Settings, and the calibrated stances, side by side in the figure."""
 WORDS = "Mean over the stances of a setting, a band of one standard deviation; both predictors know no model."
 WITHOUT = [
     "Both predictors without a model know when the stance on the plate begins and ends; the simulation predicts it.",
@@ -147,7 +147,7 @@ def comparison_page(stances: Sequence[JudgedStance], tables: Mapping[str, pd.Dat
 
 def comparison_curves(stances: Sequence[JudgedStance]) -> CurveSheet:
     """Curves of each quantity and setting: plate and model with a band of one standard deviation, both predictors."""
-    settings = by_setting(stances)
+    settings = by_setting_and_calibrated(stances)
     panels = [
         _panel(name, f"{setting}, {counted(len(own), 'stance')}", own, plain)
         for name in SHOWN

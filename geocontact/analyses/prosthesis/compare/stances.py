@@ -17,7 +17,7 @@ from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, band_of, simulated, walk_of
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
-from geocontact.below_knee_prosthesis.comparison import against_predictors, by_setting, ensembles
+from geocontact.below_knee_prosthesis.comparison import against_predictors, by_setting_and_calibrated, ensembles
 from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
     ANOTHER,
@@ -280,7 +280,7 @@ def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
 
     The predictors without a model are those of `comparison.plain_curves`, meant over the same stances.
     """
-    frames, own = [], by_setting(stances)
+    frames, own = [], by_setting_and_calibrated(stances)
     for setting, found in ensembles(stances).items():
         columns: dict[str, object] = {"setting": setting, "stance [-]": own[setting][0].errors.share}
         for one in found:
