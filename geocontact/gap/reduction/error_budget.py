@@ -256,12 +256,12 @@ def error_budget(
     found = {}
     for c, channel in enumerate(outputs):
         same = repeats([r[:, c] for r in freed], [there[:, c] for there in problem.recorded.present], axes).sure
-        parts = shares(trials[channel], same)
-        if parts:
+        split = shares(trials[channel], same)
+        if split:
             kept = sum(float(t.cleared @ t.cleared) for t in trials[channel])
             repeating = same * kept / sum(float(t.before @ t.before) for t in trials[channel])
             found[channel] = ChannelBudget(
-                parts, max(repeating, beyond_noise(trials[channel]) if channel in stated else 0.0)
+                split, max(repeating, beyond_noise(trials[channel]) if channel in stated else 0.0)
             )
     return found
 
