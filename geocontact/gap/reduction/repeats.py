@@ -27,7 +27,7 @@ from geocontact.gap.levels import PHASES
 STATES = 6
 """Parts of an input's range, of about as many samples each."""
 FEW_DRAWS = 500
-"""Of signs."""
+"""Turns of signs that chance is counted in."""
 CHANCE = 0.99
 """Quantile of what chance makes, along each axis, above which something repeats."""
 
