@@ -30,10 +30,11 @@ from geocontact.gap_benchmark.generalisation import log_probability
 
 HERE = Path(__file__).resolve().parents[1]
 ROOMS = (
-    "gap.attribute", "gap.case", "gap.data_errors", "gap.inputs", "gap.levels", "gap.selection",
+    "gap.attribute", "gap.budget_verdict", "gap.case", "gap.data_errors", "gap.inputs", "gap.levels", "gap.selection",
+    "gap.reduction.error_budget", "gap.reduction.repeats",
     "identify.intervals", "identify.noise", "identify.optimise", "identify.signals",
 )  # fmt: skip
-"""What is left out only draws, tells or proposes: localise, reduction, identifiability, experiment."""
+"""What is left out only draws, tells or proposes: localise, the rest of reduction, identifiability, experiment."""
 DRAWN = ("seed", "systems", "kinds", "cases", "laboratories")
 """Options that cases are drawn by: runs that agree in them have the same ones."""
 FAILED = "failed"

@@ -20,7 +20,7 @@ from geocontact.gap.selection.model_comparison import Contender
 
 
 @dataclass(frozen=True)
-class Beside:
+class EffectGain:
     """An effect of a model, and the model without it."""
 
     name: str
@@ -45,7 +45,7 @@ def detected(found: Attribution) -> tuple[Detected, ...]:
     return tuple(sorted(rows, key=lambda row: -row.nats))
 
 
-def _sure(found: Attribution) -> list[Beside]:
+def _sure(found: Attribution) -> list[EffectGain]:
     said, base = found.answer, found.base
     named = said.chosen if said.effects else base
     if not named.candidates:
@@ -59,13 +59,13 @@ def _sure(found: Attribution) -> list[Beside]:
     if len(named.candidates) == 2:
         first, second = named.candidates
         lone = {one.label: _alone(found, named, one) for one in named.candidates}
-        return [Beside(first.name, named, lone[second.label]), Beside(second.name, named, lone[first.label])]
-    rows = [Beside(named.candidates[0].name, named, base)]
+        return [EffectGain(first.name, named, lone[second.label]), EffectGain(second.name, named, lone[first.label])]
+    rows = [EffectGain(named.candidates[0].name, named, base)]
     pairs = [c for c in found.contenders if len(c.candidates) == 2 and named.candidates[0] in c.candidates]
     both = max((c for c in pairs if _allowed(found, c)), key=lambda c: c.nats, default=named)
     if both.nats - named.nats > SURE * (1.0 + SLIGHT * (both.nats - base.nats)):
         other = next(one for one in both.candidates if one != named.candidates[0])
-        rows.append(Beside(other.name, both, named))
+        rows.append(EffectGain(other.name, both, named))
     return rows
 
 
@@ -79,7 +79,7 @@ def _alone(found: Attribution, pair: Contender, one: object) -> Contender:
     return known or with_one(found.clean, pair, next(each for each in pair.candidates if each == one))
 
 
-def _shares(found: Attribution, one: Beside) -> dict[str, tuple[float, float, float]]:
+def _shares(found: Attribution, one: EffectGain) -> dict[str, tuple[float, float, float]]:
     """Share of the base model's squared error on held-out trials that an effect takes, by channel, and its interval."""
     problem, clean = found.problem, found.clean
     count, names = len(problem.calibration.trials), [trial.name for trial in problem.recorded.trials]

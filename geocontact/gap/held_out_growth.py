@@ -17,6 +17,7 @@ from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, Offer, attribute
+from geocontact.gap.levels import WORTH_NAMING
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, raw_input_errors
 from geocontact.gap.selection.verdict import Answer
 
@@ -66,11 +67,11 @@ def growth(found: Attribution, errors: RawInputErrors) -> float:
 
 
 def grows(found: Attribution, errors: RawInputErrors) -> bool:
-    """Whether something is named with which the error on held-out trials is larger, of all channels together.
+    """Whether something is named with which the error on held-out trials is larger, by more than is worth a name.
 
     An effect of one channel may make that one four times as small and the others, whose floors differ, a little larger.
     """
-    return bool(found.answer.effects) and growth(found, errors) > 1.0
+    return bool(found.answer.effects) and growth(found, errors) > 1.0 + WORTH_NAMING
 
 
 def withdrawn(found: Attribution, grown: float) -> Attribution:

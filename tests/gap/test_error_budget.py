@@ -69,6 +69,8 @@ def test_beyond_noise_is_what_neighbours_share_above_its_largest_size(size: floa
     assert loudest() == pytest.approx(1.2 * np.exp(0.3))
     assert beyond_noise([one]) == pytest.approx(share, abs=1e-3)
     assert beyond_noise([trial(size, size, size, 1.0, 0.0)]) == 0.0 and beyond_noise([]) == 0.0
+    more = ErrorTrial(flat, flat, 2.0 * flat, np.ones(n), np.zeros(n))
+    assert beyond_noise([more]) == beyond_noise([one]), "what taking deviations off adds is not missed"
 
 
 def test_a_trial_deviates_by_three_usual_deviations_at_most() -> None:

@@ -26,7 +26,7 @@ def found() -> Found:
     """Damping of an elbow, named, and the errors of base model and answer."""
     result = diagnosed_elbow()
     attribution = result.findings.attribution
-    return result.case, attribution, held_out_growth._errors(attribution)
+    return result.case, attribution, held_out_growth.errors_of(attribution)
 
 
 def made_worse(errors: RawInputErrors, times: float) -> RawInputErrors:

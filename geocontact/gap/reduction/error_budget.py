@@ -173,9 +173,14 @@ def share_taken(
 def beyond_noise(trials: Sequence[ErrorTrial]) -> float:
     """Share of the squared error that neighbours in time share beyond what `loudest` noise makes; 0 where none."""
     before = sum(float(t.before @ t.before) for t in trials)
-    alike = sum(float(t.cleared[1:] @ t.cleared[:-1]) for t in trials)
+    alike = min(sum(float(r[1:] @ r[:-1]) for r in parts) for parts in _stays(trials))
     noise = sum(float(t.sensor.sum() + t.inputs.sum()) for t in trials)
     return max(alike - loudest() ** 2 * noise, 0.0) / before if before > 0.0 else 0.0
+
+
+def _stays(trials: Sequence[ErrorTrial]) -> tuple[list[Float[np.ndarray, " _"]], list[Float[np.ndarray, " _"]]]:
+    """Errors of the answer, and without the trials' own deviations; taking these off may also leave more."""
+    return [t.after for t in trials], [t.cleared for t in trials]
 
 
 def deviations(
@@ -256,12 +261,12 @@ def error_budget(
     found = {}
     for c, channel in enumerate(outputs):
         same = repeats([r[:, c] for r in freed], [there[:, c] for there in problem.recorded.present], axes).sure
-        parts = shares(trials[channel], same)
-        if parts:
-            kept = sum(float(t.cleared @ t.cleared) for t in trials[channel])
+        split = shares(trials[channel], same)
+        if split:
+            kept = min(sum(float(r @ r) for r in parts) for parts in _stays(trials[channel]))
             repeating = same * kept / sum(float(t.before @ t.before) for t in trials[channel])
             found[channel] = ChannelBudget(
-                parts, max(repeating, beyond_noise(trials[channel]) if channel in stated else 0.0)
+                split, max(repeating, beyond_noise(trials[channel]) if channel in stated else 0.0)
             )
     return found
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEIGHT = 0.011
-"""Of a bar with its distance to the next [m]."""
+"""Height of a bar with its distance to the next [m]."""
 COLOURS = {
     "sensor": GREY,
     "inputs": PALETTE[4],
@@ -21,7 +21,7 @@ COLOURS = {
     "effects": PALETTE[0],
     "unexplained": PALETTE[1],
 }
-"""By part, in the order in which a bar is stacked."""
+"""Colour of each part, in the order in which a bar is stacked."""
 
 
 @dataclass(frozen=True)
