@@ -13,7 +13,7 @@ r"""A gap case begun: `geocontact gap init`, `gc.init_gap_case`.
 >>> print(result.sentences[0])
 run of strut.py was called on 4 trials: angle [rad] → torque [N m]
 >>> f"{result.errors['t1']['torque']:.2f} N m"
-'0.73 N m'
+'0.68 N m'
 """
 
 from __future__ import annotations
