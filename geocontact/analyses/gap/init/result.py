@@ -187,9 +187,9 @@ def _with_memory(found: FoundSimulator, first: FirstRun, units: Mapping[str, str
         reserve(f"{what}; declare the base model with dynamic=True, otherwise false alarms are frequent")
         return found
     module, function = name.removesuffix("_adapter.py"), found.words.partition(" ")[0]
-    sides = [{n: units[n] for n in names} for names in (found.base.inputs, found.base.outputs)]
+    inputs, outputs = ({n: units[n] for n in names} for names in (found.base.inputs, found.base.outputs))
     acts_on = first.system.geometry.yields
-    return replace(found, adapter=(name, function_adapter(module, function, *sides, acts_on, dynamic=True)))
+    return replace(found, adapter=(name, function_adapter(module, function, inputs, outputs, acts_on, dynamic=True)))
 
 
 def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
