@@ -71,7 +71,7 @@ WITHOUT_PARAMETERS = {
     *(f"chain.{name}" for name in ("CONTACT_LAW", "ContactSites", "Geometry", "INTERFACE_LAW")),
 }
 SILENT = ["require_numbers"]  # says nothing where all is well
-WITHOUT_FORMULA = ["cohort", "init_gap_case", "load_cells"]
+WITHOUT_FORMULA = ["cohort", "load_cells"]
 
 
 Diagnosed = Callable[[], tuple[str, Any]]

@@ -55,7 +55,8 @@ def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
         used = stretches(len(trial), share)
         values = trial.signals.values.copy()
         columns = [trial.signals.channels.index(name) for name in outputs]
-        values[np.ix_(~used, columns)] = np.nan
+        for column in columns:
+            values[~used, column] = np.nan
         return replace(trial, signals=replace(trial.signals, values=values))
 
     return replace(case, calibration=tuple(map(fewer, case.calibration)), evaluation=tuple(map(fewer, case.evaluation)))

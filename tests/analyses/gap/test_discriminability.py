@@ -98,7 +98,7 @@ def test_groups_that_look_alike_are_one_sentence() -> None:
     """Three groups made three sentences of the same words."""
     groups = (("a", "b"), ("c", "d", "e"), ("f", "g"))
     found = SimpleNamespace(
-        detectabilities=(), absorbed=(), mistakes=(), classes=groups, effects=(), planned=None, found=None
+        detectabilities=(), absorbed=(), mistakes=(), classes=groups, effects=(), proposal=None, found=None
     )
     said = [line for line in confusion_sentences(found) if "not separable" in line]  # type: ignore[arg-type]
     assert said == ["not separable (less than 5 nats between any two): a and b; c, d and e; f and g"]

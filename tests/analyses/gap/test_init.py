@@ -15,7 +15,7 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.gap.init.fmu import read_fmu
 from tests.analyses.gap.strut_fmu import built, described
-from tests.cli.calls import done
+from tests.cli.calls import call, done
 
 K, NEUTRAL, DAMPING = 120.0, 0.05, 4.0
 PLAIN = """import numpy as np
@@ -83,7 +83,7 @@ def test_what_it_asks_for_is_found_and_asked(apart: Path) -> None:
 def test_a_completed_case_is_diagnosed_with_the_adapter(apart: Path) -> None:
     declared = f"\nimport geocontact as gc\nPARAMETERS = ({PARAMETERS})\n"
     simulator = file_of(apart, "strut.py", PLAIN + declared)
-    done("gap", "init", "--simulator", simulator, "--data", str(recordings(apart / "data")), "--out", "case")
+    done(call("gap", "init", "--simulator", simulator, "--data", recordings(apart / "data"), "--out", "case"))
     shutil.copy(apart / "case" / "strut_adapter.py", apart)
     said = gc.diagnose(apart / "case", bare=True).diagnosis
     assert said.effects == ("damping",)

@@ -13,7 +13,7 @@ r"""A gap case begun: `geocontact gap init`, `gc.init_gap_case`.
 >>> print(result.sentences[0])
 run of strut.py was called on 4 trials: angle [rad] → torque [N m]
 >>> f"{result.errors['t1']['torque']:.2f} N m"
-'0.73 N m'
+'0.68 N m'
 """
 
 from __future__ import annotations
@@ -187,9 +187,9 @@ def _with_memory(found: FoundSimulator, first: FirstRun, units: Mapping[str, str
         reserve(f"{what}; declare the base model with dynamic=True, otherwise false alarms are frequent")
         return found
     module, function = name.removesuffix("_adapter.py"), found.words.partition(" ")[0]
-    sides = [{n: units[n] for n in names} for names in (found.base.inputs, found.base.outputs)]
+    inputs, outputs = ({n: units[n] for n in names} for names in (found.base.inputs, found.base.outputs))
     acts_on = first.system.geometry.yields
-    return replace(found, adapter=(name, function_adapter(module, function, *sides, acts_on, dynamic=True)))
+    return replace(found, adapter=(name, function_adapter(module, function, inputs, outputs, acts_on, dynamic=True)))
 
 
 def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:

@@ -212,8 +212,8 @@ def _channels(o: InitOptions, units: Units) -> tuple[tuple[str, ...], tuple[str,
             raise InputError("", f"`{option}`", "not clear from the units of the columns", f"name some of {columns}")
     if o.outputs is not None:
         return inputs, outputs, ()
-    names = ", ".join(outputs)
-    return inputs, outputs, (f"are {names} the outputs? They are in {', '.join(LOADS)}; else give `outputs`",)
+    every = ", ".join(outputs)
+    return inputs, outputs, (f"are {every} the outputs? They are in {', '.join(LOADS)}; else give `outputs`",)
 
 
 def _listed(text: str | None, option: str, units: Units) -> tuple[str, ...]:
