@@ -53,8 +53,8 @@ turn and not after it is in the model's axes already: it stays as it is, with a 
 
 What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
 times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
-a table; a mirrored force along the floor of who stands up; pounds for kilograms in a set-up of `scale`, beside which
-there is no plate; steps with which a recording begins or ends, which are not whole.
+a table; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
+whole.
 
 Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).
@@ -70,7 +70,10 @@ called known, and ends of intervals stay empty. A doubt is a warning. It is in {
 |---|---|---|
 """
 RESULTS = {
-    "of_residual": (f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s", f"z > {fit.SURE:g}, rms > {fit.FAR:g} s"),
+    "of_residual": (
+        f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s; rms < {fit.TOO_SMALL:g} s",
+        f"z > {fit.SURE:g}, rms > {fit.FAR:g} s",
+    ),
     "of_r2": ("", "R² < 0"),
     "of_bounds": ("on one of them", ""),
     "of_range": ("any", f"{fit.MUCH:.0%} or more"),
