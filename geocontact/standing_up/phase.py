@@ -301,7 +301,7 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
 
 
 DEGREE = 7
-"""Of the polynomials through the coordinates."""
+"""Degree of the polynomials through the coordinates."""
 
 
 def smooth_coordinates(
