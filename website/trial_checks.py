@@ -42,10 +42,10 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 |---|---|---|---|
 """
 BATTERY = """
-Over the commands, the shipped trials are damaged in {count} ways, each of which is refused, or warned of with its cause:
-{counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
-{meshes} sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set two markers
-of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for
+Over the commands, the shipped trials are damaged in {count} ways, each of which is refused, or warned of with its
+cause: {counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
+{meshes} sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set two
+markers of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm for
 one frame, in the files themselves.
 
 `--axes` turns markers and plates alike: forces, moments, points. A table of plates whose forces are upwards before that
@@ -53,8 +53,8 @@ turn and not after it is in the model's axes already: it stays as it is, with a 
 
 What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
 times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
-a table; a mirrored force along the floor of who stands up; pounds for kilograms in a set-up of `scale`, beside which
-there is no plate; steps with which a recording begins or ends, which are not whole.
+a table; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
+whole.
 
 Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).
@@ -70,7 +70,10 @@ doubt is a warning. It is in {judged}; studies and `gap diagnose --many` list it
 |---|---|---|
 """
 RESULTS = {
-    "of_residual": (f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s", f"z > {fit.SURE:g}, rms > {fit.FAR:g} s"),
+    "of_residual": (
+        f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s; rms < {fit.TOO_SMALL:g} s",
+        f"z > {fit.SURE:g}, rms > {fit.FAR:g} s",
+    ),
     "of_r2": ("", "R² < 0"),
     "of_bounds": ("on one of them", ""),
     "of_range": ("any", f"{fit.MUCH:.0%} or more"),

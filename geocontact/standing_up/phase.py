@@ -302,8 +302,12 @@ def _data(trial: StandingTrial, tracks: Sequence[str]) -> Course:
     return lambda time: np.column_stack([course(time), np.full(len(time), share)])
 
 
+DEGREE = 7
+"""Degree of the polynomials through the coordinates."""
+
+
 def smooth_coordinates(
-    trial: StandingTrial, degree: int = 7
+    trial: StandingTrial, degree: int = DEGREE
 ) -> Callable[[Float[np.ndarray, " t"]], Float[np.ndarray, "t n"]]:
     """Polynomials through the coordinates: where the search starts, accelerations must not be noise."""
     fits = [Polynomial.fit(trial.time - trial.time[0], q, degree) for q in trial.q.T]

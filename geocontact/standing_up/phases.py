@@ -23,7 +23,7 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.problem import Bounds, Course
 from geocontact.standing_up.chain import LAW, Subject
 from geocontact.standing_up.exoskeleton import STRAP
-from geocontact.standing_up.phase import PhaseProblem, smooth_coordinates, standing_phase
+from geocontact.standing_up.phase import DEGREE, PhaseProblem, smooth_coordinates, standing_phase
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import SPRINGS, STRAP_SITES, usual
 from geocontact.standing_up.trials import SHIPPED, CostWeights, StandingNoise, StandingTrial
@@ -141,8 +141,7 @@ def phase_c(
         weights={"energy": weights.energy},
         guess=[_between(course, float(np.ptp(trial.time)))],
     )
-    seconds = float(np.ptp(trial.time))
-    start, end = (_bounds_at(model, noise, course, at) for at in (0.0, seconds))
+    start, end = (_bounds_at(model, noise, trial, course, at) for at in (0, -1))
     only = replace(phase.control.trials[0], start=start, end=end)
     return replace(phase, control=replace(phase.control, trials=(only,)))
 
@@ -158,11 +157,32 @@ def _between(course: Course, seconds: float) -> Course:
     return coordinates
 
 
-def _bounds_at(model: StandingModel, noise: StandingNoise, course: Course, at: float) -> Bounds:
-    """Bounds of coordinates and rates about the smoothed recording at a time; accelerations are free."""
+def _bounds_at(model: StandingModel, noise: StandingNoise, trial: StandingTrial, course: Course, at: int) -> Bounds:
+    """Bounds of the first (0) or last (-1) state: about the smoothed coordinates and the recorded rates; accelerations
+    are free.
+
+    Where no rates were recorded they are the slopes of the smoothed coordinates, with the error that these have.
+    """
     h, n = 1e-3, model.count
-    q = course(np.array([at]))[0]
-    u = (course(np.array([at + h])) - course(np.array([at - h])))[0] / (2.0 * h)
-    room = WITHIN * np.r_[model.per_coordinate(noise.length, noise.angle), np.full(n, noise.rate)]
+    time = float(trial.time[at] - trial.time[0])
+    q = course(np.array([time]))[0]
+    places = model.per_coordinate(noise.length, noise.angle)
+    if trial.u.any():
+        u, rates = trial.u[at], np.full(n, noise.rate)
+    else:
+        u = (course(np.array([time + h])) - course(np.array([time - h])))[0] / (2.0 * h)
+        rates = places * slope_error(trial.time)
+    room = WITHIN * np.r_[places, rates]
     wide = np.full(n, np.inf)
     return np.r_[np.r_[q, u] - room, -wide], np.r_[np.r_[q, u] + room, wide]
+
+
+def slope_error(time: Float[np.ndarray, " t"], degree: int = DEGREE) -> float:
+    """Standard deviation of the slope at either end of a polynomial through white noise of deviation 1 [1/s].
+
+    By least squares, sqrt(d' (X' X)^-1 d) with the powers X of the time and their slopes d at its end.
+    """
+    scaled = 2.0 * (time - time[0]) / float(np.ptp(time)) - 1.0
+    powers = np.vander(scaled, degree + 1, increasing=True)
+    slopes = np.arange(degree + 1) * 2.0 / float(np.ptp(time))
+    return float(np.sqrt(slopes @ np.linalg.solve(powers.T @ powers, slopes)))

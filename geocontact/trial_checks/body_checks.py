@@ -344,7 +344,7 @@ BODY_CHECKS = (
     ),
     Check(
         "mass and upper arm",
-        "mass with the height that the length of the upper arm belongs to",
+        "mass with the height that the upper arm belongs to",
         f"the same, with {LEG_OFF:.0%} of the height, the upper arm being {UPPER_ARM:g} of it (Drillis and Contini)",
         build_by_arm,
     ),

@@ -339,9 +339,9 @@ MARKER_CHECKS = (
     ),
     Check(
         "one segment",
-        "distances of markers that by their labels are on one segment, at both ends of the trial and over it",
-        f"{1e3 * MOVED:.0f} mm, or {1e3 * SWINGS:.0f} mm in the middle 95 %; in recordings of eight people at most 14 "
-        "and 27 mm, with markers on wands 61 mm",
+        "distances on one segment, by its labels, at both ends and over the trial",
+        f"{1e3 * MOVED:.0f} mm, or {1e3 * SWINGS:.0f} mm in the middle 95 %; eight people have 14 and "
+        "27 mm at most, on wands 61 mm",
         segments_keep,
     ),
     Check(

@@ -6,6 +6,7 @@ What contradicts is known from outside: another subject's size, no joint at all,
 from __future__ import annotations
 
 import re
+import shutil
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -111,17 +112,17 @@ PLANTED = MESHES / "standing_up_exoskeleton" / "truth.csv"
 
 
 @cache
-def _predicted(normal: str) -> StandingPredictResult:
-    """The shipped trial with the stiffness of the strap that made it, 4500 N/m, or with another one."""
-    text = PLANTED.read_text(encoding="utf-8").replace("strap normal,N/m,4500", f"strap normal,N/m,{normal}")
+def _predicted(friction: str) -> StandingPredictResult:
+    """The shipped trial with the friction of the feet that made it, 1.3, or with ice under them."""
+    text = PLANTED.read_text(encoding="utf-8").replace("friction,-,1.3", f"friction,-,{friction}")
     with TemporaryDirectory() as folder, unchecked():
         given = Path(folder) / "parameters.csv"
         given.write_text(text, encoding="utf-8")
         return gc.sit_to_stand.predict(STANDING, parameters=given, against=PLANTED.with_name("study.toml"), nodes=5.0)
 
 
-def _compared(normal: str) -> Result:
-    with mock.patch.object(compared, "predicted", return_value=_predicted(normal).predictions), unchecked():
+def _compared(friction: str) -> Result:
+    with mock.patch.object(compared, "predicted", return_value=_predicted(friction).predictions), unchecked():
         return gc.sit_to_stand.compare(STANDING, parameters=PLANTED, against=PLANTED.with_name("study.toml"), nodes=5.0)
 
 
@@ -191,12 +192,42 @@ def _gap(folder: Path) -> Result:
         return gc.diagnose(damped_elbow(folder / "elbow_7"))
 
 
+def _inject(stays: bool) -> Run:
+    """Stiffening put into the damped elbow, whose given diagnosis leaves little or most of the error."""
+
+    def run(folder: Path) -> Result:
+        found = diagnosed_elbow().findings
+        force = replace(found.diagnosis.gap["force"], rmse_before=3.4, rmse_after=3.0, noise_floor=0.15)
+        off = replace(found, diagnosis=replace(found.diagnosis, gap={"force": force})) if stays else found
+        diagnosed = mock.patch("geocontact.analyses.gap.diagnose.result.findings_of", return_value=off)
+        with diagnosed, mock.patch("geocontact.analyses.gap.inject.result.diagnose", return_value=found), unchecked():
+            return gc.inject(damped_elbow(folder / "elbow_7"), effect="stiffening", size=2.0)
+
+    return run
+
+
+def _calibrated(mass: float) -> Run:
+    """One shipped trial of standing up by 70 kg, with another mass stated."""
+
+    def run(folder: Path) -> Result:
+        there = folder / "standing_up"
+        shutil.copytree(MESHES / "standing_up", there)
+        text = (there / "study.toml").read_text(encoding="utf-8")
+        first = text.split("\n[[trials]]")[:2]
+        one = "\n[[trials]]".join(first).replace("value = 70,", f"value = {mass:g},")
+        (there / "study.toml").write_text(one, encoding="utf-8")
+        with unchecked():
+            return gc.sit_to_stand.calibrate(there / "study.toml", nodes=8.0, resamples=0)
+
+    return run
+
+
 PAIRS = {
+    "gap inject": Pair(_inject(True), "of the squared error on held-out trials stay", _inject(False)),
+    "sit-to-stand calibrate": Pair(_calibrated(79.0), "force_y: residual", _calibrated(70.0)),
     "gap diagnose": Pair(_gap, "of the squared error on held-out trials stay", lambda _: diagnosed_elbow()),
-    "sit-to-stand predict": Pair(
-        lambda _: _predicted("100000"), "ankle torque: residual", lambda _: _predicted("4500")
-    ),
-    "sit-to-stand compare": Pair(lambda _: _compared("100000"), "ankle torque: residual", lambda _: _compared("4500")),
+    "sit-to-stand predict": Pair(lambda _: _predicted("0.13"), "force_x: residual", lambda _: _predicted("1.3")),
+    "sit-to-stand compare": Pair(lambda _: _compared("0.13"), "force_x: residual", lambda _: _compared("1.3")),
     "sit-to-stand design": Pair(_design(10.0), "knee: residual", _design(0.0)),
     "mat": Pair(_mat(True), "landmarks of scan and body", _mat(False)),
     "loadcells": Pair(_cells(-1.0), "pulls on its tray", _cells(1.0)),

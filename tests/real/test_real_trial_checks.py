@@ -28,6 +28,7 @@ from geocontact.trial_checks.landmarks import body_points
 from geocontact.trial_checks.mesh_checks import SurfacePair, surface_contradictions
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 from geocontact.trial_checks.table import contradictions
+from tests.cli.calls import call
 from tests.trial_checks.as_c3d import LABORATORY, as_c3d, laboratory, plates_as_c3d
 from tests.trial_checks.damage import Damage, alike, columns_changed, late, said, swapped, text_changed, times
 
@@ -69,6 +70,10 @@ TRIALS = {
 }
 MODELS = {
     "subject01": (f"{WALK}subject01_simbody.osim", f"{WALK}subject01_walk1_ik.mot"),
+    "JW, of a workshop": (
+        "gc4_jw_predsim_workshop/KneeProsthesis.osim",
+        "gc4_jw_predsim_workshop/KneeProsthesis_states2track.sto",
+    ),
     "squats": ("opencap/LaiArnoldModified2017_contacts.osim", "opencap/squats1_videoAndMocap.mot"),
     "walking": ("opencap/LaiArnoldModified2017_contacts.osim", "opencap/walking1_videoAndMocap.mot"),
     **{
@@ -77,6 +82,7 @@ MODELS = {
     },
 }
 SURFACES = ("gc4_jw_knee/stl", "gc6_dm_knee/stl", "jma_ankles/Norm_01", "jma_ankles/Norm_03")
+SURFACES += ("gc4_jw_predsim_workshop", "body_meshes")
 
 
 def recorded(data_dir: Path, name: str, mass: float | None = None) -> TrialInputs:
@@ -123,11 +129,42 @@ def test_real_coordinates_pass(name: str, data_dir: Path) -> None:
 def test_real_surfaces_pass(folder: str, data_dir: Path) -> None:
     import geocontact as gc
 
-    unit = "m" if folder.startswith("gc") else "mm"
-    surfaces = [gc.read_surface(file, unit) for file in sorted((data_dir / folder).glob("*.stl"))]
+    unit = "mm" if folder.startswith("jma") else "m"
+    files = sorted([*(data_dir / folder).glob("*.stl"), *(data_dir / folder).glob("*.obj")])
+    surfaces = [gc.read_surface(file, unit) for file in files]
+    assert len(surfaces) > 1
     for moving in surfaces:
         for fixed in surfaces:
             assert moving is fixed or not surface_contradictions(SurfacePair(moving, fixed))
+
+
+KNEE, FLUOROSCOPY = "gc6_dm_knee/stl/", "gc6_dm_knee/fluoroscopy/Fluoroscopic Gait Data.sto"
+READ: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "JW og3, load cells": (
+        ("loadcells", "gc4_jw_knee/knee_forces/jw_ngait_og3_knee_forces.csv", "--unit", "lbf"),
+        (),
+    ),
+    # the file has 0, 1, … 100 under `time`; surfaces of fluoroscopy are registered to 1 mm, and overlap by 1.3 mm
+    "DM, fluoroscopy": (
+        (
+            *("area", f"{KNEE}Femoral Component decimated.stl", f"{KNEE}Tibial Insert decimated.stl", "--unit", "m"),
+            *("--motion", FLUOROSCOPY, "--angles", "rad", "--region", "ny>0.25", "--map"),
+            "rx=knee_flex_r,ry=knee_add_r,rz=knee_rot_r,tx=knee_ant_r,ty=knee_sup_r,tz=knee_lat_r",
+        ),
+        ("taken as per cent of a cycle", "the bodies overlap, by 1.30 mm at most"),
+    ),
+}
+"""Commands, files of the data among their words, and what is rightly said."""
+
+
+@pytest.mark.parametrize("name", READ)
+def test_a_command_says_of_a_real_recording_what_is_right(name: str, data_dir: Path, tmp_path: Path) -> None:
+    words, right = READ[name]
+    given = [data_dir / each if (data_dir / each).is_file() else each for each in words]
+    found = call(*given, "--out", tmp_path / "out")
+    assert found.code == 0, found.err
+    assert len(found.warnings) == len(right)
+    assert all(any(each in line for line in found.warnings) for each in right)
 
 
 WALKED = ("subject01_simbody.osim", "subject01_walk1_ik.mot", "subject01_walk1_grf.mot", "subject01_walk1_grf.xml")

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.consent import foreign
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.data.plausible import Plausible
+from geocontact.data.units import mm
 from geocontact.io.cases.case_settings import SETTINGS, read_settings
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.trial_table import cells_file
@@ -61,6 +63,7 @@ def read_case(folder: Path, run_simulator: bool) -> CaseWithModel:
     """Case in a folder; `run_simulator` allows one of the system "command" to run the program that it names."""
     case = read_gap_case(folder, run_programs=run_simulator)
     require_shares(case, folder / "case.toml")
+    doubt_numbers(case, folder / "case.toml")
     system = system_of(case)
     add_inputs(folder, case)
     return CaseWithModel(folder, case, system)
@@ -79,6 +82,40 @@ def programs_of(folder: Path) -> tuple[str, ...]:
 
 SHARES = {"shoulder": ("level",)}
 """Numbers of a trial that are shares of a whole, by base model."""
+
+
+ARM = Plausible("a length of an exoskeleton's arm", mm, (-1e9, 1e9), (-2000.0, 2000.0), least=5.0)
+LENGTHS = {"elbow": ("l", "z", "l_ex", "z_ex")}
+"""Constants of a base model that are lengths in m, by its name."""
+SMALL = 0.05
+"""Share of what a channel changes from sample to sample, below which a stated noise is another unit's."""
+
+
+def doubt_numbers(case: GapCase, file: Path) -> None:
+    """A warning for a stated noise that the trials do not have, and for a constant in another unit.
+
+    White noise of deviation s makes second differences of sqrt(6) s; a movement makes more, never less.
+    """
+    for name in LENGTHS.get(case.system, ()):
+        if name in case.constants and (doubt := ARM.doubt(float(case.constants[name]))):
+            reserve(f"{file} [constants] {name}: {doubt}")
+    for channel, noise in case.noise.items():
+        recorded = [trial.column(channel) for trial in case.calibration if channel in trial.signals.channels]
+        known = [each[np.isfinite(each)] for each in recorded]
+        known = [each for each in known if len(each) > FEWEST]
+        if not known:
+            continue
+        spread = float(np.sqrt(np.mean([np.var(each) for each in known])))
+        rough = float(np.sqrt(np.median([np.mean(np.diff(each, 2) ** 2) for each in known]) / 6.0))
+        where = f"{file} [noise] {channel}: is {noise:.3g}"
+        if noise > spread > 0.0:
+            reserve(f"{where}, more than the channel changes in the trials, {spread:.3g}; is it in the channel's unit?")
+        elif noise < SMALL * rough:
+            reserve(f"{where}, and the channel changes by {rough:.3g} from sample to sample; is it in its unit?")
+
+
+FEWEST = 10
+"""Samples of a channel."""
 
 
 def require_shares(case: GapCase, file: Path) -> None:

@@ -7,7 +7,6 @@ as well: it contradicts the recording where the recording's own mean would descr
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -18,19 +17,15 @@ from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingNoise
 
+CONSTANT = 0.1
+"""Times the noise: a recording that varies by less has none, and is no recording."""
 PREDICTED = ("coordinates", "strap", SHEAR)
 SIMULATED = ("force", "centre")
 
 
 def goodness_of_predictions(predictions: Sequence[PredictedTrial], noise: StandingNoise) -> GoodnessOfFit:
-    """The predictor that is given most is tested; those that are given less stand beside it to be compared.
-
-    A search follows given forces through an unstable movement less closely towards its end than a calibration does, of
-    true parameters as well: it is not doubted for that, as long as it does not contradict them.
-    """
-    trials = [one.trial for one in predictions if one.name == ALL]
-    found = _goodness(trials, noise, GIVEN[ALL], PREDICTED)
-    return replace(found, doubts=tuple(doubt for doubt in found.doubts if doubt.contradicts))
+    """The predictor that is given most is tested; those that are given less stand beside it to be compared."""
+    return _goodness([one.trial for one in predictions if one.name == ALL], noise, GIVEN[ALL], PREDICTED)
 
 
 def goodness_of_movement(trials: Sequence[TrialResult], noise: StandingNoise) -> GoodnessOfFit:
@@ -65,5 +60,9 @@ def _goodness(
 def _of_predicted(name: str, each: StandingChannel) -> Iterable[Doubt]:
     residual = each.recorded - each.model
     spread = float(np.mean((each.recorded - each.recorded.mean()) ** 2))
-    if spread > 0.0 and residual_test(residual, each.noise).ratio > FAR:
+    if residual_test(residual, each.noise).ratio <= FAR:
+        return
+    if spread <= (CONSTANT * each.noise) ** 2:
+        yield Doubt(f"{name}: the recording has one value throughout: was its sensor off?", True)
+    else:
         yield from of_r2(name, 1.0 - float(np.mean(residual**2)) / spread)

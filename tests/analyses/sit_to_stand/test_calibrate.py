@@ -210,4 +210,4 @@ def test_what_changes_how_numbers_are_read_is_warned_of(other: dict[str, object]
 
 def test_nothing_to_doubt_is_not_warned_of() -> None:
     said, warned = doubts(ends=(BEST, SAME, WORSE))
-    assert not warned and said == ["phase A: 2 of 3 starts end in the best minimum, 3 converge"]
+    assert not warned and said == ["phase A: 2 of 3 starts end in the lowest minimum, 3 converge"]

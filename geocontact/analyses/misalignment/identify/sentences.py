@@ -87,7 +87,7 @@ def _of_clocks(found: Fitted) -> Iterator[Doubt]:
         except ValueError:  # a pole, of which the law itself is doubted
             continue
         time, step = even_times(r.time)
-        if lag := clock_off(*(np.interp(time, r.time, each) for each in (force, r.force)), step):
+        if lag := clock_off(np.interp(time, r.time, force), np.interp(time, r.time, r.force), step):
             words = f"{r.name}, force: {clock_words(lag)} Or is damping b missing? see `free`"
             yield Doubt(words, False, abs(lag))
 

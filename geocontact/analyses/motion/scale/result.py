@@ -2,7 +2,7 @@
 
 >>> import geocontact as gc
 >>> static = gc.virtual_markers("meshes/leg_swing.mot", model="meshes/leg.osim").write("virtual") / "markers.trc"
->>> result = gc.scale(static, model="meshes/leg.osim", mass=70.0)
+>>> result = gc.scale(static, model="meshes/leg.osim", mass=24.0)
 >>> print(result)
 scaled: no body; markers 25.8 mm from the model, root mean square, and 50.3 mm at most, foot_r2 at 0 s
 (OpenSim advises less than 10 and 20 mm)
@@ -140,6 +140,7 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
         made = scaled(given.model, given.factors, o.mass, by_volume=o.mass_by_volume)
     except ValueError as error:
         raise InputError(o.model, "", str(error), "correct the model") from error
+    _doubt_mass(given, o)
     try:
         pose = inverse_kinematics(tree_of(made), given.markers, given.tasks)
     except ValueError as error:
@@ -162,6 +163,21 @@ def run(given: Standing, o: ScaleOptions) -> ScaleResult:
         modelled=made.marker_places(pose.values)[0, which],
         summary=summary,
     )
+
+
+DENSER = 0.5, 2.0
+"""Times the mass of the model, grown with the volumes of its bodies, that a subject's may be: from 14 to 50 kg/m² (WHO,
+TRS 894), 22 of a usual model, and legs that are 15 % longer or shorter than the body is. Pounds are 2.2 times."""
+
+
+def _doubt_mass(given: Standing, o: ScaleOptions) -> None:
+    """A warning for a mass that a body of the scaled size does not have."""
+    if o.mass is None:
+        return
+    grown = sum(body.mass for body in scaled(given.model, given.factors, None, by_volume=True).bodies)
+    if not DENSER[0] * grown <= o.mass <= DENSER[1] * grown:
+        what = f"{o.mass:.4g} kg is {o.mass / grown:.2g} times what {given.model.name} has at the size of the subject"
+        reserve(f"`mass`: {what}, {grown:.4g} kg; is it in kg, and are factors and mass of one person?")
 
 
 def _placed(model: Multibody, seen: MarkerTrajectories, pose: Poses) -> Multibody:

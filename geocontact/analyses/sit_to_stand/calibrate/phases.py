@@ -72,7 +72,7 @@ def _compare_starts(one: CalibratedPhase) -> None:
     if len(one.ends) < 2 or not solved:
         return
     same = sum(end.same for end in one.ends)
-    say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the best minimum, {solved} converge")
+    say(f"phase {one.name}: {same} of {len(one.ends)} starts end in the lowest minimum, {solved} converge")
     if not one.ends[0].same:
         reserve(f"phase {one.name} from its default start ends in a minimum worse than that of another start")
 

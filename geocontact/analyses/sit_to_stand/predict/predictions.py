@@ -135,8 +135,16 @@ def perturbed(
 
 
 def warn_of_known(held_out: Sequence[StandingTrial], known: Sequence[StandingTrial]) -> None:
-    """Trials of the calibration among those that are to be predicted: the same recording under any name."""
+    """Trials of the calibration among those that are to be predicted: the same recording under any name.
+
+    Or a single channel of one, as where a file of a calibration's trial was named.
+    """
     for trial in held_out:
+        for channel in ("strap", "torque", "force"):
+            own = getattr(trial, channel)
+            same = [one.name for one in known if own is not None and np.array_equal(getattr(one, channel), own)]
+            if same and not any(np.array_equal(one.q, trial.q) for one in known):
+                reserve(f"{trial.name}: its {channel} is that of {same[0]} in `against`; name its own file")
         same = [one.name for one in known if one.q.shape == trial.q.shape and np.array_equal(one.q, trial.q)]
         if same:
             reserve(
