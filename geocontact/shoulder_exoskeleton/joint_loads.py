@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypedDict
 
 import numpy as np
 from jaxtyping import Float
@@ -24,6 +25,14 @@ from geocontact.shoulder_exoskeleton.human_arm import VANISHING, ArmTrack, HandL
 Rows = Float[np.ndarray, "t 3"]
 HEAD = 0.40
 """Middle of the head above the shoulders, over the length of the trunk (invented)."""
+
+
+class PersonNumbers(TypedDict):
+    """Mass of the body [kg], sex for the table of segments, and gravity in the laboratory [m/s²]."""
+
+    mass: float
+    sex: Sex
+    gravity: Float[np.ndarray, " 3"]
 
 
 @dataclass(frozen=True, eq=False)

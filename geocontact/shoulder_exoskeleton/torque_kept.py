@@ -33,7 +33,7 @@ from geocontact.shoulder_exoskeleton.arms_from_markers import elevation
 from geocontact.shoulder_exoskeleton.cuff_contact import MIRROR
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad, second_derivative
-from geocontact.shoulder_exoskeleton.joint_loads import Load, arm_needs, raising_torque
+from geocontact.shoulder_exoskeleton.joint_loads import Load, PersonNumbers, arm_needs, raising_torque
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, MovedArm
 
 if TYPE_CHECKING:
@@ -205,7 +205,7 @@ def torque_kept(
     """
     if simulation.cuff != "point":
         raise ValueError("the torque is kept in a cuff that holds at a point")
-    given = {"mass": mass, "sex": sex, "gravity": gravity}
+    given = PersonNumbers(mass=mass, sex=sex, gravity=gravity)
     body = arm_beyond_cuff(track, hand, simulation, frame, mass=mass, sex=sex, gravity=gravity)
     time = simulation.motion.time
     run = _Coupled(simulation, body, np.ones(len(time)) if factor is None else factor)
@@ -283,13 +283,13 @@ class _Coupled:
 
         def inside(t: float, x: Float[np.ndarray, " x"]) -> float:
             now = float(np.interp(t, time, self.raised)) + float(x[7])
-            return min(now - LOWEST, HIGHEST - now)
+            return float(min(now - LOWEST, HIGHEST - now))
 
         inside.terminal = True  # type: ignore[attr-defined]
         relative, absolute = TOLERANCE
         found = solve_ivp(
             self.rates,
-            time[[0, -1]],
+            (float(time[0]), float(time[-1])),
             start,
             "BDF",
             time,

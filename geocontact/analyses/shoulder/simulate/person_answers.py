@@ -27,6 +27,7 @@ from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, ToolWork, arm_tr
 from geocontact.shoulder_exoskeleton.joint_loads import (
     ArmNeeds,
     Load,
+    PersonNumbers,
     Trunk,
     arm_needs,
     back_needs,
@@ -121,8 +122,8 @@ def person_answers(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulate
     return answers
 
 
-def _given(o: ShoulderSimulateOptions, mass: float) -> dict[str, object]:
-    return {"mass": mass, "sex": o.sex or "male", "gravity": np.array(MarkerSettings().gravity)}
+def _given(o: ShoulderSimulateOptions, mass: float) -> PersonNumbers:
+    return PersonNumbers(mass=mass, sex=o.sex or "male", gravity=np.array(MarkerSettings().gravity))
 
 
 def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float) -> _Side:
@@ -136,17 +137,17 @@ def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float
     running = np.zeros(len(s.motion.time), bool) if worn.tool is None else worn.tool
     hand = hand_load(work, arm.side, o.dominant or "right", running)
     given = _given(o, mass)
-    needs = arm_needs(track, hand, **given)  # type: ignore[arg-type]
+    needs = arm_needs(track, hand, **given)
     if o.cuff != "point":
         return _Side(arm.side, track, needs, loads_in_laboratory(s, frame), None, None, {})
     try:
-        kept = torque_kept(track, hand, s, frame, factor=arm.factor, **given)  # type: ignore[arg-type]
+        kept = torque_kept(track, hand, s, frame, factor=arm.factor, **given)
     except ArithmeticError as error:
         raise InputError(o.markers, "`mass`", f"{arm.side} arm: {error}", "leave `mass` out") from error
     count = len(kept.departure)
     cut = DeviceFrame(frame.origin[:count], frame.rotation[:count])
     held = type(hand)(hand.mass, np.broadcast_to(hand.force, track.hand.shape)[:count])
-    after = arm_needs(kept.track, held, **given)  # type: ignore[arg-type]
+    after = arm_needs(kept.track, held, **given)
     device_after = loads_in_laboratory(kept.simulation, cut)
     return _Side(arm.side, track, needs, loads_in_laboratory(s, frame), kept, after, device_after)
 
@@ -187,7 +188,7 @@ def _of_trunk(
 ) -> Iterator[Quantity]:
     trunk = trunk_of([each.track for each in sides], worn.frame, worn.wearer.torso)
     given = _given(o, mass)
-    needs = back_needs(trunk, [each.needs for each in sides], **given)  # type: ignore[arg-type]
+    needs = back_needs(trunk, [each.needs for each in sides], **given)
     devices = [each.device for each in sides]
     back = {WITHOUT: extending_torque(trunk, needs), MOTION: extending_torque(trunk, needs, devices)}
     height = o.height or STATURE[o.sex or "male"]
