@@ -178,6 +178,7 @@ exoskeleton = true
 free = ["a"]
 tracks = ["b"]
 [noise]
+shear = { value = 1, unit = "N" }
 angle = { value = 0.3, unit = "deg" }
 [[trials]]
 name = "T1"
