@@ -48,7 +48,7 @@ class Load:
         return np.asarray(self.moment + np.cross(self.place - point, self.force))
 
     def opposite(self) -> Load:
-        """Its reaction."""
+        """Reaction to this load."""
         return Load(-self.force, self.place, -self.moment)
 
 
@@ -99,7 +99,7 @@ class ArmNeeds:
 
 
 def arm_needs(track: ArmTrack, hand: HandLoad, *, mass: float, sex: Sex, gravity: Float[np.ndarray, " 3"]) -> ArmNeeds:
-    """Of an arm with its hand's load; arguments as those of `elevation_torque`."""
+    """Needs of an arm with its hand's load; arguments as those of `elevation_torque`."""
     joints = {
         "upper_arm": (track.shoulder, track.elbow),
         "forearm": (track.elbow, track.wrist),
@@ -139,7 +139,7 @@ class Trunk:
 
 
 def trunk_of(tracks: Sequence[ArmTrack], frame: DeviceFrame, length: float) -> Trunk:
-    """Of both arms: straight along the device's z, `length` [m] long, the shoulders' mean place in the device's frame
+    """Trunk between both arms: straight along the device's z, `length` [m] long, the shoulders' mean place in the device's frame
     above it.
     """
     middle = np.mean([frame.points(track.shoulder) for track in tracks], axis=(0, 1))

@@ -114,7 +114,7 @@ def arm_beyond_cuff(
     sex: Sex,
     gravity: Float[np.ndarray, " 3"],
 ) -> ArmBeyondCuff:
-    """Of a recorded arm; arguments as those of `arm_needs`, at the times of the simulation."""
+    """Numbers of a recorded arm; arguments as those of `arm_needs`, at the times of the simulation."""
     axis = track.raising()
     ends = {
         "upper_arm": (track.shoulder, track.elbow),
@@ -273,7 +273,7 @@ class _Coupled:
         return np.asarray(self.rates_of(x, *self.given(t), self.p).full()[:, 0])
 
     def jacobian(self, t: float, x: Float[np.ndarray, " x"]) -> Float[np.ndarray, "x x"]:
-        """Of the derivative by the state."""
+        """Derivative of `rates` by the state."""
         return np.asarray(self.jacobian_of(x, *self.given(t), self.p).full())
 
     def stepped(self) -> Float[np.ndarray, "t x"]:

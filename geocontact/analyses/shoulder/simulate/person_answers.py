@@ -51,7 +51,7 @@ Row = Float[np.ndarray, " t"]
 
 
 @dataclass(frozen=True, eq=False)
-class Quantity:
+class PersonQuantity:
     """One load or motion over time by the three ways, in SI; what keeps its torque may be shorter, or empty.
 
     Parameters
@@ -84,7 +84,7 @@ class PersonAnswers:
     """
 
     time: Row
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[PersonQuantity, ...]
     kept: Mapping[Side, TorqueKept]
     until: int
 
@@ -161,7 +161,7 @@ def loads_in_laboratory(s: ArmSimulation, frame: DeviceFrame) -> dict[str, Load]
     return found
 
 
-def _of_arm(one: _Side) -> Iterator[Quantity]:
+def _of_arm(one: _Side) -> Iterator[PersonQuantity]:
     where, track, needs, kept, after = f"{one.side} arm", one.track, one.needs, one.kept, one.after
     cuff = one.device["cuff"]
     torque = {WITHOUT: raising_torque(track, needs), MOTION: raising_torque(track, needs, cuff)}
@@ -173,9 +173,9 @@ def _of_arm(one: _Side) -> Iterator[Quantity]:
         torque[TORQUE] = kept.kept
         elbow[TORQUE] = bending_torque(kept.track, after)
         elevation[TORQUE] = raised[: len(kept.departure)] + kept.departure
-    yield Quantity(where, "raising torque of the shoulder", "N m", 1.0, torque)
-    yield Quantity(where, "bending torque of the elbow", "N m", 1.0, elbow)
-    yield Quantity(where, "elevation", "deg", float(np.degrees(1.0)), elevation)
+    yield PersonQuantity(where, "raising torque of the shoulder", "N m", 1.0, torque)
+    yield PersonQuantity(where, "bending torque of the elbow", "N m", 1.0, elbow)
+    yield PersonQuantity(where, "elevation", "deg", float(np.degrees(1.0)), elevation)
 
 
 def _along(track: ArmTrack) -> Float[np.ndarray, "t 3"]:
@@ -185,7 +185,7 @@ def _along(track: ArmTrack) -> Float[np.ndarray, "t 3"]:
 
 def _of_trunk(
     worn: Worn, sides: Sequence[_Side], o: ShoulderSimulateOptions, mass: float, until: int
-) -> Iterator[Quantity]:
+) -> Iterator[PersonQuantity]:
     trunk = trunk_of([each.track for each in sides], worn.frame, worn.wearer.torso)
     given = _given(o, mass)
     needs = back_needs(trunk, [each.needs for each in sides], **given)
@@ -206,8 +206,10 @@ def _of_trunk(
         needed = extending_torque(trunk, needs)[:until]
         back[TORQUE] = needed + extending_torque(cut, _none(cut), [*changes, *loads])
         lean[TORQUE] = person.sway(cut.time, _leaning(cut, ankle, [*changes, *loads]))
-    yield Quantity("lower back", "extending torque", "N m", 1.0, back)
-    yield Quantity("whole body", "lean forwards about the ankles by the device", "deg", float(np.degrees(1.0)), lean)
+    yield PersonQuantity("lower back", "extending torque", "N m", 1.0, back)
+    yield PersonQuantity(
+        "whole body", "lean forwards about the ankles by the device", "deg", float(np.degrees(1.0)), lean
+    )
 
 
 def _change(one: _Side, count: int) -> dict[str, Load]:
