@@ -139,8 +139,8 @@ class Trunk:
 
 
 def trunk_of(tracks: Sequence[ArmTrack], frame: DeviceFrame, length: float) -> Trunk:
-    """Trunk between both arms: straight along the device's z, `length` [m] long, the shoulders' mean place in the device's frame
-    above it.
+    """Trunk between both arms: straight along the device's z, `length` [m] long, below the mean place of the shoulders
+    in the device's frame.
     """
     middle = np.mean([frame.points(track.shoulder) for track in tracks], axis=(0, 1))
     middle[0] = 0.0
