@@ -321,7 +321,15 @@ class _Coupled:
         )
         none, names = np.zeros(0), tuple(self.model.equations.names)
         states = SimulatedMotion(
-            time, names, found[:, :3], found[:, 3:6], found[:, 6:7], time[1:], 0, none, np.zeros((0, 0, 0))
+            time,
+            names,
+            found[:, :3],
+            found[:, 3:6],
+            found[:, 6:7],
+            time[1:],
+            0,
+            none,
+            np.zeros((count, found.shape[1], 0)),
         )
         moved = MovedArm(motion, s.device, s.wearer, s.level, s.cuff, self.model, self.p, w, states)
         return moved.simulation(most_lost=1.0)
