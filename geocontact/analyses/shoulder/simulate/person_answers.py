@@ -229,7 +229,8 @@ def _first(load: Load, count: int) -> Load:
 
 def _leaning(trunk: Trunk, ankle: Float[np.ndarray, "1 3"], loads: Sequence[Mapping[str, Load]]) -> Row:
     """Moment of loads about the ankles that leans forwards [N m]."""
-    moment = np.sum([load.about(ankle) for side in loads for load in side.values()], axis=0)
+    point = np.broadcast_to(ankle, trunk.hips.shape)
+    moment = np.sum([load.about(point) for side in loads for load in side.values()], axis=0)
     return np.asarray(np.einsum("ti,ti->t", trunk.left, moment))
 
 
