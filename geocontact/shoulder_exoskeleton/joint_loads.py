@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypedDict
 
 import numpy as np
 from jaxtyping import Float
@@ -24,6 +25,14 @@ from geocontact.shoulder_exoskeleton.human_arm import VANISHING, ArmTrack, HandL
 Rows = Float[np.ndarray, "t 3"]
 HEAD = 0.40
 """Middle of the head above the shoulders, over the length of the trunk (invented)."""
+
+
+class PersonNumbers(TypedDict):
+    """Mass of the body [kg], sex for the table of segments, and gravity in the laboratory [m/s²]."""
+
+    mass: float
+    sex: Sex
+    gravity: Float[np.ndarray, " 3"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +48,7 @@ class Load:
         return np.asarray(self.moment + np.cross(self.place - point, self.force))
 
     def opposite(self) -> Load:
-        """Its reaction."""
+        """Reaction to this load."""
         return Load(-self.force, self.place, -self.moment)
 
 
@@ -90,7 +99,7 @@ class ArmNeeds:
 
 
 def arm_needs(track: ArmTrack, hand: HandLoad, *, mass: float, sex: Sex, gravity: Float[np.ndarray, " 3"]) -> ArmNeeds:
-    """Of an arm with its hand's load; arguments as those of `elevation_torque`."""
+    """Needs of an arm with its hand's load; arguments as those of `elevation_torque`."""
     joints = {
         "upper_arm": (track.shoulder, track.elbow),
         "forearm": (track.elbow, track.wrist),
@@ -130,8 +139,8 @@ class Trunk:
 
 
 def trunk_of(tracks: Sequence[ArmTrack], frame: DeviceFrame, length: float) -> Trunk:
-    """Of both arms: straight along the device's z, `length` [m] long, the shoulders' mean place in the device's frame
-    above it.
+    """Trunk between both arms: straight along the device's z, `length` [m] long, below the mean place of the shoulders
+    in the device's frame.
     """
     middle = np.mean([frame.points(track.shoulder) for track in tracks], axis=(0, 1))
     middle[0] = 0.0

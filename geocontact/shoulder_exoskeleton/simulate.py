@@ -216,7 +216,7 @@ class ArmSimulation:
         radial, friction = self.told["place"][:, 1:], self.told["friction"][:, 1:]
         size = np.hypot(*radial.T)
         turned = radial[:, 0] * friction[:, 1] - radial[:, 1] * friction[:, 0]
-        return np.divide(turned, size, out=np.zeros_like(size), where=size > 0.0)
+        return np.asarray(np.divide(turned, size, out=np.zeros_like(size), where=size > 0.0))
 
     @property
     def slip(self) -> Float[np.ndarray, " t"]:

@@ -33,7 +33,7 @@ from geocontact.shoulder_exoskeleton.arms_from_markers import elevation
 from geocontact.shoulder_exoskeleton.cuff_contact import MIRROR
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad, second_derivative
-from geocontact.shoulder_exoskeleton.joint_loads import Load, arm_needs, raising_torque
+from geocontact.shoulder_exoskeleton.joint_loads import Load, PersonNumbers, arm_needs, raising_torque
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, MovedArm
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def arm_beyond_cuff(
     sex: Sex,
     gravity: Float[np.ndarray, " 3"],
 ) -> ArmBeyondCuff:
-    """Of a recorded arm; arguments as those of `arm_needs`, at the times of the simulation."""
+    """Numbers of a recorded arm; arguments as those of `arm_needs`, at the times of the simulation."""
     axis = track.raising()
     ends = {
         "upper_arm": (track.shoulder, track.elbow),
@@ -205,7 +205,7 @@ def torque_kept(
     """
     if simulation.cuff != "point":
         raise ValueError("the torque is kept in a cuff that holds at a point")
-    given = {"mass": mass, "sex": sex, "gravity": gravity}
+    given = PersonNumbers(mass=mass, sex=sex, gravity=gravity)
     body = arm_beyond_cuff(track, hand, simulation, frame, mass=mass, sex=sex, gravity=gravity)
     time = simulation.motion.time
     run = _Coupled(simulation, body, np.ones(len(time)) if factor is None else factor)
@@ -273,7 +273,7 @@ class _Coupled:
         return np.asarray(self.rates_of(x, *self.given(t), self.p).full()[:, 0])
 
     def jacobian(self, t: float, x: Float[np.ndarray, " x"]) -> Float[np.ndarray, "x x"]:
-        """Of the derivative by the state."""
+        """Derivative of `rates` by the state."""
         return np.asarray(self.jacobian_of(x, *self.given(t), self.p).full())
 
     def stepped(self) -> Float[np.ndarray, "t x"]:
@@ -283,13 +283,13 @@ class _Coupled:
 
         def inside(t: float, x: Float[np.ndarray, " x"]) -> float:
             now = float(np.interp(t, time, self.raised)) + float(x[7])
-            return min(now - LOWEST, HIGHEST - now)
+            return float(min(now - LOWEST, HIGHEST - now))
 
         inside.terminal = True  # type: ignore[attr-defined]
         relative, absolute = TOLERANCE
         found = solve_ivp(
             self.rates,
-            time[[0, -1]],
+            (float(time[0]), float(time[-1])),
             start,
             "BDF",
             time,
@@ -321,7 +321,15 @@ class _Coupled:
         )
         none, names = np.zeros(0), tuple(self.model.equations.names)
         states = SimulatedMotion(
-            time, names, found[:, :3], found[:, 3:6], found[:, 6:7], time[1:], 0, none, np.zeros((0, 0, 0))
+            time,
+            names,
+            found[:, :3],
+            found[:, 3:6],
+            found[:, 6:7],
+            time[1:],
+            0,
+            none,
+            np.zeros((count, found.shape[1], 0)),
         )
         moved = MovedArm(motion, s.device, s.wearer, s.level, s.cuff, self.model, self.p, w, states)
         return moved.simulation(most_lost=1.0)

@@ -186,6 +186,7 @@ damping = 10.0
 [weights]
 torques = 1e-6
 [noise]
+shear = { value = 1, unit = "N" }
 angle = { value = 0.3, unit = "deg" }
 [[trials]]
 name = "T1"

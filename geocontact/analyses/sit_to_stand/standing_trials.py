@@ -248,7 +248,7 @@ def site_shear(files: Sequence[Path], time: Times) -> Times | None:
 def _in_newtons(file: Path, time: Times) -> Times:
     table = read_table(file)
     values = column_in_newtons(table, SHEAR, None)[0]
-    return np.interp(time, table.time, values)
+    return np.asarray(np.interp(time, table.time, values))
 
 
 def _confront_shear(name: str, shear: Times | None, normal: Times, time: Times) -> None:

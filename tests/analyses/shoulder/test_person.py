@@ -11,8 +11,19 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.shoulder.simulate.person_answers import loads_in_laboratory
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
+from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
+from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad
+from geocontact.shoulder_exoskeleton.joint_loads import (
+    Load,
+    PersonNumbers,
+    Trunk,
+    arm_needs,
+    back_needs,
+    extending_torque,
+)
 from tests.analyses.shoulder.test_simulate import still_arms
 
 TRIAL = "meshes/overhead_P1T1S100"
@@ -121,3 +132,29 @@ def test_the_written_table_is_read_back(tmp_path: Path) -> None:
     folder = found().write(tmp_path / "out")
     table = pd.read_csv(folder / "person.csv")
     assert list(table.columns[-3:]) == ["without", "motion kept", "torque kept"]
+
+
+def test_the_back_under_a_kept_torque_is_that_of_the_moved_arms() -> None:
+    """Counted anew from the joints of the moved arms and the device's loads there, not as a change."""
+    result = found()
+    person = result.person
+    assert person is not None
+    n, frame = person.until, result.frame
+    cut = DeviceFrame(frame.origin[:n], frame.rotation[:n])
+    middle = np.mean([each.simulation.motion.shoulder for each in result.arms], axis=(0, 1)) * [0.0, 1.0, 1.0]
+    top = cut.origin + np.einsum("tji,j->ti", cut.rotation, middle)
+    trunk = Trunk(person.time[:n], top - result.wearer.torso * cut.rotation[:, 2], top, cut.rotation[:, 0])
+    given = PersonNumbers(mass=82.0, sex="male", gravity=np.array([0.0, -9.81, 0.0]))
+    needs, loads = [], []
+    for side, kept in person.kept.items():
+        track = kept.track
+        own = {name: getattr(track, name)[:n] for name in ("time", "shoulder", "elbow", "wrist", "hand", "down")}
+        hand = HandLoad(1.3 if side == "right" else 0.0, np.zeros((n, 3)))
+        needs.append(arm_needs(ArmTrack(side, **own), hand, **given))
+        whole = DeviceFrame(frame.origin[: len(kept.departure)], frame.rotation[: len(kept.departure)])
+        both = loads_in_laboratory(kept.simulation, whole)
+        loads.append({name: Load(each.force[:n], each.place[:n], each.moment[:n]) for name, each in both.items()})
+    wanted = extending_torque(trunk, back_needs(trunk, needs, **given), loads)
+    back = of("extending torque", "lower back")["torque kept"]
+    np.testing.assert_allclose(back[5:-5], wanted[5:-5], atol=0.5)
+    assert np.abs(back).max() > np.abs(of("extending torque", "lower back")["motion kept"][:n]).max() + 10.0

@@ -22,9 +22,9 @@ from geocontact.shoulder_exoskeleton.working_arm import SimulatedArm, arm_at_wor
 
 DRAWS = 40
 ENDS = (0.025, 0.975)
-"""Of the band that holds 95 % of the draws."""
+"""Quantiles between which the band holds 95 % of the draws."""
 CHANNELS = {"elevation": ("deg", float(np.degrees(1.0))), "supporting": ("N", 1.0), "shear": ("N", 1.0)}
-"""Of a simulation, with unit and factor of tables."""
+"""Courses of a simulation that have a band, with unit and factor of tables."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ def displaced(motion: ArmMotion, lower: Float[np.ndarray, " 3"], upper: Float[np
 
 
 def marker_bands(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulateOptions) -> tuple[MarkerBand, ...]:
-    """Of each arm; none where no error is stated. InputError where hardly a draw can be simulated."""
+    """Bands of each arm; none where no error is stated. InputError where hardly a draw can be simulated."""
     if o.marker_error is None:
         return ()
     rng = np.random.default_rng(o.seed or 0)

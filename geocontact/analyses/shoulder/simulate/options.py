@@ -32,7 +32,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE, MASS, SHIFT
 
 FEWEST_DRAWS, MOST_DRAWS = 20, 1000
-"""Of marker errors: the outer ones of 20 hold 90 %, more take minutes."""
+"""Numbers of draws of marker errors: the outer ones of 20 hold 90 %, more than 1000 take minutes."""
 
 Elevations = Annotated[
     tuple[float, ...],

@@ -27,6 +27,7 @@ from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, ToolWork, arm_tr
 from geocontact.shoulder_exoskeleton.joint_loads import (
     ArmNeeds,
     Load,
+    PersonNumbers,
     Trunk,
     arm_needs,
     back_needs,
@@ -50,7 +51,7 @@ Row = Float[np.ndarray, " t"]
 
 
 @dataclass(frozen=True, eq=False)
-class Quantity:
+class PersonQuantity:
     """One load or motion over time by the three ways, in SI; what keeps its torque may be shorter, or empty.
 
     Parameters
@@ -83,7 +84,7 @@ class PersonAnswers:
     """
 
     time: Row
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[PersonQuantity, ...]
     kept: Mapping[Side, TorqueKept]
     until: int
 
@@ -121,8 +122,8 @@ def person_answers(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulate
     return answers
 
 
-def _given(o: ShoulderSimulateOptions, mass: float) -> dict[str, object]:
-    return {"mass": mass, "sex": o.sex or "male", "gravity": np.array(MarkerSettings().gravity)}
+def _given(o: ShoulderSimulateOptions, mass: float) -> PersonNumbers:
+    return PersonNumbers(mass=mass, sex=o.sex or "male", gravity=np.array(MarkerSettings().gravity))
 
 
 def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float) -> _Side:
@@ -136,17 +137,17 @@ def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float
     running = np.zeros(len(s.motion.time), bool) if worn.tool is None else worn.tool
     hand = hand_load(work, arm.side, o.dominant or "right", running)
     given = _given(o, mass)
-    needs = arm_needs(track, hand, **given)  # type: ignore[arg-type]
+    needs = arm_needs(track, hand, **given)
     if o.cuff != "point":
         return _Side(arm.side, track, needs, loads_in_laboratory(s, frame), None, None, {})
     try:
-        kept = torque_kept(track, hand, s, frame, factor=arm.factor, **given)  # type: ignore[arg-type]
+        kept = torque_kept(track, hand, s, frame, factor=arm.factor, **given)
     except ArithmeticError as error:
         raise InputError(o.markers, "`mass`", f"{arm.side} arm: {error}", "leave `mass` out") from error
     count = len(kept.departure)
     cut = DeviceFrame(frame.origin[:count], frame.rotation[:count])
     held = type(hand)(hand.mass, np.broadcast_to(hand.force, track.hand.shape)[:count])
-    after = arm_needs(kept.track, held, **given)  # type: ignore[arg-type]
+    after = arm_needs(kept.track, held, **given)
     device_after = loads_in_laboratory(kept.simulation, cut)
     return _Side(arm.side, track, needs, loads_in_laboratory(s, frame), kept, after, device_after)
 
@@ -160,7 +161,7 @@ def loads_in_laboratory(s: ArmSimulation, frame: DeviceFrame) -> dict[str, Load]
     return found
 
 
-def _of_arm(one: _Side) -> Iterator[Quantity]:
+def _of_arm(one: _Side) -> Iterator[PersonQuantity]:
     where, track, needs, kept, after = f"{one.side} arm", one.track, one.needs, one.kept, one.after
     cuff = one.device["cuff"]
     torque = {WITHOUT: raising_torque(track, needs), MOTION: raising_torque(track, needs, cuff)}
@@ -172,9 +173,9 @@ def _of_arm(one: _Side) -> Iterator[Quantity]:
         torque[TORQUE] = kept.kept
         elbow[TORQUE] = bending_torque(kept.track, after)
         elevation[TORQUE] = raised[: len(kept.departure)] + kept.departure
-    yield Quantity(where, "raising torque of the shoulder", "N m", 1.0, torque)
-    yield Quantity(where, "bending torque of the elbow", "N m", 1.0, elbow)
-    yield Quantity(where, "elevation", "deg", float(np.degrees(1.0)), elevation)
+    yield PersonQuantity(where, "raising torque of the shoulder", "N m", 1.0, torque)
+    yield PersonQuantity(where, "bending torque of the elbow", "N m", 1.0, elbow)
+    yield PersonQuantity(where, "elevation", "deg", float(np.degrees(1.0)), elevation)
 
 
 def _along(track: ArmTrack) -> Float[np.ndarray, "t 3"]:
@@ -184,10 +185,10 @@ def _along(track: ArmTrack) -> Float[np.ndarray, "t 3"]:
 
 def _of_trunk(
     worn: Worn, sides: Sequence[_Side], o: ShoulderSimulateOptions, mass: float, until: int
-) -> Iterator[Quantity]:
+) -> Iterator[PersonQuantity]:
     trunk = trunk_of([each.track for each in sides], worn.frame, worn.wearer.torso)
     given = _given(o, mass)
-    needs = back_needs(trunk, [each.needs for each in sides], **given)  # type: ignore[arg-type]
+    needs = back_needs(trunk, [each.needs for each in sides], **given)
     devices = [each.device for each in sides]
     back = {WITHOUT: extending_torque(trunk, needs), MOTION: extending_torque(trunk, needs, devices)}
     height = o.height or STATURE[o.sex or "male"]
@@ -205,8 +206,10 @@ def _of_trunk(
         needed = extending_torque(trunk, needs)[:until]
         back[TORQUE] = needed + extending_torque(cut, _none(cut), [*changes, *loads])
         lean[TORQUE] = person.sway(cut.time, _leaning(cut, ankle, [*changes, *loads]))
-    yield Quantity("lower back", "extending torque", "N m", 1.0, back)
-    yield Quantity("whole body", "lean forwards about the ankles by the device", "deg", float(np.degrees(1.0)), lean)
+    yield PersonQuantity("lower back", "extending torque", "N m", 1.0, back)
+    yield PersonQuantity(
+        "whole body", "lean forwards about the ankles by the device", "deg", float(np.degrees(1.0)), lean
+    )
 
 
 def _change(one: _Side, count: int) -> dict[str, Load]:
@@ -226,7 +229,8 @@ def _first(load: Load, count: int) -> Load:
 
 def _leaning(trunk: Trunk, ankle: Float[np.ndarray, "1 3"], loads: Sequence[Mapping[str, Load]]) -> Row:
     """Moment of loads about the ankles that leans forwards [N m]."""
-    moment = np.sum([load.about(ankle) for side in loads for load in side.values()], axis=0)
+    point = np.broadcast_to(ankle, trunk.hips.shape)
+    moment = np.sum([load.about(point) for side in loads for load in side.values()], axis=0)
     return np.asarray(np.einsum("ti,ti->t", trunk.left, moment))
 
 
