@@ -11,11 +11,12 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
+from tests.analyses.findings.heard import Finding, Lines, as_lines, as_parameters, heard
 from tests.analyses.loadcells import synthetic_walk as walk
 from tests.analyses.mat import samples
 from tests.analyses.modulus.synthetic_step import areas, forces
 from tests.cli.calls import FEMUR, INSERT, MESHES, gait
+from tests.trial_checks import test_commands as trials
 
 Change = Callable[[pd.DataFrame], object]
 Attempt = Callable[[Path], Lines]
@@ -82,6 +83,17 @@ def knee(moving: Path, motion: Path | None = None) -> Attempt:
     )
 
 
+def gathering(old: str, new: str) -> Attempt:
+    """Gap gather of two shipped walks, with words of its settings replaced."""
+
+    def attempt(folder: Path) -> Lines:
+        there = trials.gather_files(folder)
+        assert trials.text_changed("gather.toml", lambda text: text.replace(old, new))(there) == {}
+        return as_lines(trials.gather(there))
+
+    return attempt
+
+
 FINDINGS: dict[str, Finding] = {
     "cells in N called lbf": Finding(cells(times(1.0), unit="lbf"), "warned: .*much for a knee; is its unit right"),
     "cells: time in ms": Finding(cells(times(1e3, "time [s]")), "warned: .*is its time in s, not in ms"),
@@ -96,6 +108,12 @@ FINDINGS: dict[str, Finding] = {
     "area: a left component on a right insert": Finding(
         knee(MESHES / "femoral_component_left_coarse.stl"), "warned: .*by its name.*are both of one joint"
     ),
+    "gather: k in N/mm": Finding(
+        gathering("start = 3e4", "start = 30"), "warned: .*is unusual for the stiffness k of a sphere"
+    ),
+    "gather: kinetic friction above the static one": Finding(
+        gathering("mu_k = 0.7", "mu_k = 1.7"), "warned: .*larger than the static mu_s"
+    ),
     "area: motion of the left knee": Finding(
         knee(FEMUR, MESHES / "gait_left.csv"), "warned: .*gait_left.csv of the left", slow=True
     ),
@@ -107,6 +125,7 @@ RIGHT: dict[str, Attempt] = {
     "forces with an offset of 20 N": pressed(plus(20.0)),
     "mat of a seat, 2 Hz": on_thigh(0.5),
     "knee": knee(FEMUR),
+    "gather": gathering("start = 3e4", "start = 2e3"),
 }
 
 

@@ -43,7 +43,7 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    check_trial(TrialInputs(standing=whole, turn=turn_of(o.axes)))
+    check_trial(TrialInputs(standing=whole, mass=o.mass, turn=turn_of(o.axes)))
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, _measured(o, model, whole), o.scale)
