@@ -224,7 +224,7 @@ PART = Plausible("the mass of a part of a device", KG, (0.0, 100.0), (0.05, 20.0
 MOTOR = Plausible("the largest torque of a motor that is worn", N_M, (0.0, 1e6), (0.01, 500.0), or_zero=True)
 TOOL = Plausible("the largest current of a hand tool", AMPERE, (0.0, 1e6), (0.02, 100.0), or_zero=True)
 
-CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (0.5, 100.0), or_zero=True)
+CUTOFF = Plausible("a cut-off frequency", HZ, (0.0, 2000.0), (1.0, 100.0), or_zero=True)
 BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))
 RATE = Plausible("a sampling rate", HZ, (5.0, 1e4))
 FRAME_RATE = Plausible("a frame rate", HZ, (1e-3, 1e5), (0.5, 5000.0))
@@ -245,3 +245,17 @@ POSE = ByPlace((SD_OF_PLACE,) * 3 + (SD_OF_TURN,) * 3)
 SPRING = Plausible("the stiffness of a knee", N_PER_MM, (0.0, 1e6), (0.1, 2000.0), or_zero=True)
 TURNED_SPRING = Plausible("the stiffness of a knee that turns", N_M_PER_DEG, (0.0, 1e4), (1e-3, 50.0), or_zero=True)
 """Simulators of knee wear have tens of N/mm and tenths of N m/deg (ISO 14243-1)."""
+EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
+SPHERE = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
+FOOT_LAW = ByName(
+    (
+        ("k", SPHERE),
+        ("b", DAMPING),
+        ("n", EXPONENT),
+        ("delta_full", DEPTH),
+        ("mu_s", FRICTION),
+        ("mu_k", FRICTION),
+        ("v_th", SPEED),
+    )
+)
+"""What the numbers of the force law of a foot on spheres can be, wherever they come from."""

@@ -59,11 +59,19 @@ def rates(trial: TrialInputs) -> Iterator[Contradiction]:
     clocks += [] if trial.moved is None else [(trial.moved.source, "", trial.moved.time)]
     said: set[tuple[str, float]] = set()
     for source, place, time in clocks:
-        rate = _rate(time)
-        if np.isfinite(rate) and not SLOWEST <= rate <= FASTEST and (source, rate) not in said:
-            said.add((source, rate))
-            what = f"has {rate:.3g} samples in a second, over {time[-1] - time[0]:.4g} s"
-            yield Contradiction(source, place, what, "is its time in s, not in ms, frames or minutes?")
+        if (source, _rate(time)) not in said:
+            said.add((source, _rate(time)))
+            yield from odd_rate(source, place, time)
+
+
+def odd_rate(
+    source: str, place: str, time: Float[np.ndarray, " t"], slowest: float = SLOWEST
+) -> Iterator[Contradiction]:
+    """Samples in a second of one recording, at least `slowest` [Hz]."""
+    rate = _rate(time)
+    if np.isfinite(rate) and not slowest <= rate <= FASTEST:
+        what = f"has {rate:.3g} samples in a second, over {time[-1] - time[0]:.4g} s"
+        yield Contradiction(source, place, what, "is its time in s, not in ms, frames or minutes?")
 
 
 def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:

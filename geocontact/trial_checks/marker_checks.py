@@ -25,6 +25,8 @@ TURNED = 0.3
 LEVEL, ON_FLOOR, FLOORS = 0.05, (-0.015, 0.065), 0.035
 """m, between heel and toes of a foot that stands flat; of its lowest marker above the floor; of the heel's marker
 between standing and stance."""
+FASTEST, NEARLY_ALWAYS = 20.0, 98.0
+"""m/s, a sprinter's foot in swing, and per cent of the frames in which a marker is slower; people who walk have 5."""
 HELD = ("shoulder", "arm")
 """Landmarks that are no measure: arms hang, swing little, or are held out while somebody stands."""
 RIGID, MOVED, FEWEST = 0.006, 0.025, 2
@@ -66,6 +68,20 @@ def jumps(trial: TrialInputs) -> Iterator[Contradiction]:
             what = f"{seen.names[k]} leaves its course by {1e3 * far[at - 1, k]:.0f} mm within one frame"
             where = f"at {seen.time[at]:.2f} s" + (f" and in {len(frames) - 1} more frames" if len(frames) > 1 else "")
             yield Contradiction(seen.source, "", f"{what} {where}", "delete the frames in which it was not seen well")
+
+
+def speeds(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The fastest marker, in all but a few frames."""
+    for seen in trial.recordings:
+        if len(seen) < 4:
+            continue
+        speed = np.linalg.norm(np.gradient(seen.positions, seen.time, axis=0), axis=2)
+        usual = np.nan_to_num(np.nanpercentile(speed, NEARLY_ALWAYS, axis=0))
+        k = int(np.argmax(usual))
+        if usual[k] > FASTEST:
+            rate = 1.0 / float(np.median(np.diff(seen.time)))
+            what = f"{seen.names[k]} moves at {usual[k]:.0f} m/s, at {rate:.4g} frames in a second"
+            yield Contradiction(seen.source, "", what, "are rate, time and unit of length right?")
 
 
 def _exchanged(
@@ -311,6 +327,12 @@ MARKER_CHECKS = (
         "six people who walk have 40 to 190 m/s²",
         jumps,
         of_all=False,
+    ),
+    Check(
+        "speed",
+        "speed of the fastest marker with that of people",
+        f"{FASTEST:g} m/s in {100 - NEARLY_ALWAYS:g} % of the frames, a sprinter's foot; people who walk have 5 m/s",
+        speeds,
     ),
     Check(
         "upright",

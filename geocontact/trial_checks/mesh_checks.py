@@ -41,6 +41,8 @@ class SurfacePair:
         What the user calls the bodies that they belong to; None where that is not asked for.
     layered
         Whether the second one is the softer of the two.
+    beside
+        Names of what goes with them: of files of motion, or the side that the user says.
     """
 
     moving: Surface
@@ -48,6 +50,7 @@ class SurfacePair:
     roles: tuple[str, str] = ("MOVING", "FIXED")
     bodies: tuple[str, str] | None = None
     layered: bool = False
+    beside: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,16 @@ def bone(name: str) -> str:
     """
     words = re.split(r"[^a-z]+", name.lower())
     found = {kind for kind, pattern in BONES.items() if any(re.fullmatch(pattern, word) for word in words)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def side(name: str) -> str:
+    """The side that a name has the word of; "" for none or for both.
+
+    >>> side("tibial_insert_right.stl"), side("gait_left.csv"), side("tibia_r"), side("leftover.csv")
+    ('right', 'left', '', '')
+    """
+    found = {"right", "left"} & set(re.split(r"[^a-z]+", name.lower()))
     return found.pop() if len(found) == 1 else ""
 
 
@@ -103,6 +116,16 @@ def called(pair: SurfacePair) -> Iterator[Contradiction]:
         yield Contradiction(pair.moving.name, "", what, "are the two surfaces exchanged?")
 
 
+def of_one_side(pair: SurfacePair) -> Iterator[Contradiction]:
+    """Right and left in the names of the files, of the motion, and in the side that is said."""
+    first, *others = [name for name in (pair.moving.name, pair.fixed.name, *pair.beside) if side(name)] or [""]
+    for other in others:
+        if side(other) != side(first):
+            what = f"is of the {side(first)} by its name, and {other} of the {side(other)}"
+            yield Contradiction(first, "", what, "unless one was mirrored, are both of one joint?")
+            return
+
+
 MESH_CHECKS = (
     MeshCheck(
         "same surface",
@@ -121,6 +144,12 @@ MESH_CHECKS = (
         "names of files with those in `bodies`, and with which of them has the layer",
         "each named as the other; a layer on a femoral component that meets a tibial insert",
         called,
+    ),
+    MeshCheck(
+        "sides of two surfaces",
+        "right and left in names of files, those of the motion among them, and in `side`",
+        "one says right, another left",
+        of_one_side,
     ),
 )
 """Every check of two surfaces: `area`, `knee settle`, `fit` with `other`, `mat` with a second scan."""

@@ -18,6 +18,8 @@ from geocontact.analyses.motion.inverse_dynamics.loads import read as read_id
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import read as read_ik
+from geocontact.analyses.motion.scale.factors import read as read_scale
+from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import read_force_plates
 from geocontact.io.mocap.markers import read_markers
@@ -186,6 +188,11 @@ def joint(folder: Path, **changed: Any) -> set[str]:
     return said(read_joint, JointOptions, folder / TRC, static=folder / STILL, **asked)
 
 
+def scaled(folder: Path, **changed: Any) -> set[str]:
+    asked: dict[str, Any] = {"model": folder / OSIM, "scale": ("femur_r=1.0",)} | changed
+    return said(read_scale, ScaleOptions, folder / STILL, **asked)
+
+
 def heavier(factor: float) -> Damage:
     def change(text: str) -> str:
         parts = text.split("<mass>")
@@ -245,6 +252,27 @@ def test_no_damage_of_a_real_trial_is_silent(
     for file in WALKED:
         shutil.copy(data_dir / "opensim_walk" / file, tmp_path / file)
     assert inverse_dynamics(tmp_path, **DAMAGED[name](tmp_path)) - walked["id"]
+
+
+def test_a_mass_is_compared_with_who_stands(data_dir: Path) -> None:
+    """Of `scale`, by the height of the pelvis: 72.6 kg are right, a tenth of it is not."""
+    folder = data_dir / "opensim_walk"
+    assert scaled(folder, mass=72.6) == scaled(folder)
+    assert "are it and the lengths in kg and m" in "".join(scaled(folder, mass=7.26) - scaled(folder))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_plate_that_is_missing_is_spoken_of(data_dir: Path, tmp_path: Path) -> None:
+    """A foot without its plate leaves more than a third of the weight while it stands."""
+    import geocontact as gc
+
+    folder, asked = data_dir / "opensim_walk", {"model": data_dir / "opensim_walk" / OSIM, "time": (0.6, 2.0)}
+    words = "the residual force exceeds a third of the weight for"
+    feet = ("ground_force=calcn_r", "1_ground_force=calcn_l")
+    whole, alone = (
+        gc.inverse_dynamics(folder / IK, plates=folder / GRF, plate=each, **asked) for each in (feet, feet[:1])
+    )
+    assert words not in "".join(whole.warnings) and words in "".join(alone.warnings)
 
 
 @pytest.mark.filterwarnings("ignore")

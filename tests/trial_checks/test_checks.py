@@ -233,6 +233,10 @@ def carried(kilograms: float) -> Callable[[TrialInputs], TrialInputs]:
 DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a jump of 150 mm": ("jump", lambda t: moved(t, spiked(0.15))),
     "labels exchanged half-way": ("jump", lambda t: moved(t, swapped)),
+    "ten times as fast": (
+        "speed",
+        lambda t: replace(t, markers=replace(t.markers, time=0.1 * t.markers.time), plates=()),
+    ),
     "z is up": ("upright", lambda t: replace(t, markers=t.markers.turned(Z_UP), plates=())),
     "right called left": ("right and left", renamed),
     "heel and toes exchanged": ("heel and toes", lambda t: moved(replace(t, standing=None), heel_for_toe)),
@@ -273,6 +277,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
 }
 NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "as it is": lambda t: t,
+    "three times as fast": lambda t: replace(t, markers=replace(t.markers, time=t.markers.time / 3.0), plates=()),
     "a jump of 15 mm": lambda t: moved(t, spiked(0.015)),
     "a marker 15 mm elsewhere": lambda t: moved(t, aside(0.015)),
     "mass x 0.85": lambda t: replace(t, mass=0.85 * MASS),

@@ -37,6 +37,15 @@ def twice(shift: float, times: float = 1.0) -> Change:
     return lambda p: replace(p, fixed=Surface(times * p.moving.vertices + shift, p.moving.faces, "copy.stl"))
 
 
+def named(pair: SurfacePair, side: str) -> SurfacePair:
+    """With names that say the side."""
+    one, other = (
+        Surface(each.vertices, each.faces, each.name.replace(".stl", f"_{side}.stl"))
+        for each in (pair.moving, pair.fixed)
+    )
+    return replace(pair, moving=one, fixed=other)
+
+
 DAMAGED: dict[str, tuple[str, Change]] = {
     "one surface twice": ("same surface", twice(0.0)),
     "one surface twice, elsewhere": ("same surface", twice(0.3)),
@@ -47,12 +56,21 @@ DAMAGED: dict[str, tuple[str, Change]] = {
         "names of two surfaces",
         lambda p: replace(p, moving=p.fixed, fixed=p.moving, layered=True),
     ),
+    "a left component": (
+        "sides of two surfaces",
+        lambda p: replace(p, moving=p.moving, beside=("a_right.csv", "left")),
+    ),
+    "the other knee's motion": (
+        "sides of two surfaces",
+        lambda p: replace(named(p, "right"), beside=("gait_left.csv",)),
+    ),
 }
 NEARLY: dict[str, Change] = {
     "as it is": lambda p: replace(p, bodies=("femur_r", "tibia_r"), layered=True),
     "a copy that is 1 % larger": twice(0.0, 1.01),
     "6 times as large": scaled(6.0),
     "bodies of other names": lambda p: replace(p, bodies=("a", "b")),
+    "all of one side": lambda p: replace(named(p, "right"), beside=("`side` right", "gait.csv", "right_or_left.csv")),
     "without a layer": lambda p: replace(p, moving=p.fixed, fixed=p.moving),
 }
 

@@ -314,7 +314,8 @@ def read(o: AreaOptions) -> Bodies:
     moving, outer_moving = read_body_and_outer("moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed, outer_fixed = read_body_and_outer("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
-    check_surfaces(moving, fixed, bodies=o.bodies, layered=o.pressure)
+    beside = (*(Path(each).name for each in o.motion or ()), *(() if o.side is None else (f"`side` {o.side}",)))
+    check_surfaces(moving, fixed, bodies=o.bodies, layered=o.pressure, beside=beside)
     refuse_zero_without_inside(o.threshold, moving, fixed)
     if split is not None:
         refuse_other_axes(fixed.space, fixed.name, o.side, o.medial)

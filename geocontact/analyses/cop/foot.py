@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.analyses.cop.options import LAW, CopOptions
+from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.frame.bodies import read_body_motion, warn_of_inner_surfaces
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
@@ -21,7 +21,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
-from geocontact.data.plausible import numbers_in
+from geocontact.data.plausible import FOOT_LAW, numbers_in
 from geocontact.data.sides import stem_and_side
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
@@ -193,7 +193,7 @@ def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
         "mu_k": None if o.friction is not None else (float(law.kinetic.min()), float(law.kinetic.max())),
         "v_th": None if o.threshold_speed is not None else law.threshold_speed,
     }
-    for name, known, value in numbers_in(LAW, found):
+    for name, known, value in numbers_in(FOOT_LAW, found):
         if refusal := known.refusal(value):
             raise InputError(o.law or o.spheres, name, *refusal)
         if doubt := known.doubt(value):

@@ -19,24 +19,10 @@ from geocontact.analyses.frame.marks import (
     Typed,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.data.plausible import CUTOFF, DAMPING, DEPTH, FORCE, FRICTION, PLAIN, SPEED, ByName, Plausible
+from geocontact.data.plausible import CUTOFF, DAMPING, DEPTH, EXPONENT, FORCE, FRICTION, SPEED, SPHERE, Plausible
 from geocontact.data.units import mm
 
-EXPONENT = Plausible("the exponent of a force over depth", PLAIN, (0.1, 10.0), (0.8, 3.0))
-STIFFNESS = Plausible("the stiffness k of a sphere, in N/m^n", PLAIN, (1.0, 1e9), (1e3, 1e7))
 FOOT_LENGTH = Plausible("the length of a foot", mm, (10.0, 1000.0), (100.0, 400.0))
-LAW = ByName(
-    (
-        ("k", STIFFNESS),
-        ("b", DAMPING),
-        ("n", EXPONENT),
-        ("delta_full", DEPTH),
-        ("mu_s", FRICTION),
-        ("mu_k", FRICTION),
-        ("v_th", SPEED),
-    )
-)
-"""What the numbers of the force law can be, wherever they come from."""
 Friction = Annotated[tuple[float, float], Typed("-", "friction", "(0.9, 0.7)"), FRICTION]
 
 
@@ -150,7 +136,7 @@ class CopOptions(Options):
     motion_cutoff: Annotated[float | None, CUTOFF] = None
     force_cutoff: Annotated[float | None, CUTOFF] = None
     law: Path | None = None
-    stiffness: Annotated[float | None, STIFFNESS] = None
+    stiffness: Annotated[float | None, SPHERE] = None
     damping: Annotated[float | None, DAMPING] = None
     exponent: Annotated[float | None, EXPONENT] = None
     full_depth: Annotated[Length | None, DEPTH] = None

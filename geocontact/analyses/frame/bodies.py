@@ -225,9 +225,10 @@ def check_surfaces(
     roles: tuple[str, str] = ("MOVING", "FIXED"),
     bodies: tuple[str, str] | None = None,
     layered: bool = False,
+    beside: tuple[str, ...] = (),
 ) -> None:
     """A warning for whatever two surfaces contradict each other in; arguments as of `SurfacePair`."""
-    for one in surface_contradictions(SurfacePair(moving, fixed, roles, bodies, layered)):
+    for one in surface_contradictions(SurfacePair(moving, fixed, roles, bodies, layered, beside)):
         reserve(str(one), cause=True)
 
 

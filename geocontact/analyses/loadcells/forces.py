@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ from geocontact.identify.signals.filters import gaps
 from geocontact.io.recordings.load_cells import CellRecording, read_cycle_table, read_load_cells, read_regression
 from geocontact.io.text.columns import parse_map
 from geocontact.loads.loadcells import PUBLISHED, CompartmentForces, compartment_forces
+from geocontact.trial_checks.channel_checks import odd_rate
 from geocontact.view.curves.quantity import SERIES
 
 GivenCycle = tuple[str, Path, Span]
@@ -52,7 +54,22 @@ def read(o: LoadcellOptions) -> LoadCellInputs:
     for path, folder in o.folders.items():
         r = recordings[path]
         add_input("recording", path, unit=r.unit, frames=len(r.time), folder=folder or ".")
+        _doubt_cells(path.name, r.time, dict(zip(regression.cells, r.forces.T, strict=True)))
     return LoadCellInputs(regression, recordings, _named_cycles(o))
+
+
+def _doubt_cells(file: str, time: Float[np.ndarray, " t"], cells: Mapping[str, Float[np.ndarray, " t"]]) -> None:
+    """A warning for an odd clock, for a cell that reads one value while others change, and for one that is another."""
+    for one in odd_rate(file, "", time):
+        reserve(str(one))
+    total = float(np.nanmax(np.abs(sum(cells.values())), initial=0.0))
+    ranges = {name: float(np.ptp(values[np.isfinite(values)])) for name, values in cells.items()}
+    for name, span in ranges.items():
+        if span < STILL * total < max(ranges.values()):
+            reserve(f"{file}: {name} reads {np.nanmedian(cells[name]):.4g} N all the time: does the cell work?")
+    for name, other in combinations(cells, 2):
+        if ranges[name] > STILL * total and np.array_equal(cells[name], cells[other], equal_nan=True):
+            reserve(f"{file}: {name} and {other} are equal sample by sample: name the column of each cell, see `map`")
 
 
 def _named_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
@@ -155,6 +172,9 @@ def cuts_asked_for(
     cycles = _cycles_of(forces, o) if given is None else given
     if not cycles:
         what = f"finds no complete {o.cycles} in {', '.join(path.name for path in forces)}"
+        least, most = (float(pick([pick(f.total) for f in forces.values()])) for pick in (min, max))
+        if least > UNLOADED * most:
+            what += f", whose total is never below {least:.0f} N: were the cells set to zero?"
         raise InputError("", "`cycles`", what, "see `level`, or name the times: 1.7:2.8,2.8:3.9")
     cuts = [_cut(forces[path], style, path, span, _share(o)) for style, path, span in cycles]
     missing = {path.stem: gaps(f.time) for path, f in forces.items()}
@@ -261,6 +281,9 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
+UNLOADED = 0.4  # of the largest total; in swing a knee bears less
+MUCH = 5000.0  # N; five times 100 kg, down stairs it is 3.5 times the weight (Kutzner, J Biomech 43, 2010)
+STILL = 1e-3  # of the largest total; what a cell reads more or less where it works
 SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together
 
@@ -308,6 +331,9 @@ def _summarise(r: RecordedCells, regression: CellRegression) -> None:
     if peaks["total"] < LITTLE:
         what = f"the total stays below {peaks['total']:.0f} N, little for a knee that walks"
         reserve(f"{r.file}: {what}; if the file is in lbf pass `unit` lbf")
+    if peaks["total"] > MUCH:
+        what = f"the total reaches {peaks['total']:.0f} N, much for a knee"
+        reserve(f"{r.file}: {what}; is its unit right, N or lbf? see `unit`")
     if missing := gaps(f.time):
         times = ", ".join(f"{seconds(each.start)} to {seconds(each.end)} s" for each in missing[:SHOWN])
         more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""

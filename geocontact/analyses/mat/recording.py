@@ -25,6 +25,7 @@ from geocontact.io.mats.catalogue import read_mat, read_shear_grid
 from geocontact.io.mats.layout import read_layout
 from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
 from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
+from geocontact.trial_checks.channel_checks import odd_rate
 
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6
@@ -187,6 +188,10 @@ class PreparedFrames:
         return np.asarray(clipping)
 
 
+SLOWEST = 0.5
+"""Hz; mats of seats and beds take 1 to 5 frames in a second, those of walking people 50 and more."""
+
+
 def read_recording(o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int], ...]]:
     """The mat that is asked for, and the cells that its layout lists as dead."""
     layout = None if o.layout is None else read_layout(o.layout)
@@ -203,6 +208,8 @@ def read_recording(o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int]
         cells=int(read.valid.sum()),
         pitch_mm=[round(p * 1e3, 4) for p in read.pitch],
     )
+    for one in odd_rate(str(o.frames), "", read.time, SLOWEST):
+        reserve(str(one))
     return read, layout.dead if layout else ()
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+import numpy as np
+from jaxtyping import Float
+
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
 from geocontact.data.plausible import ADHESION, CONTACT
@@ -11,6 +14,9 @@ from geocontact.elastic_modulus.area_force import MODULUS, WORK
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
+
+OFFSET, TAKEN = 0.1, 0.1
+"""Parts of the largest force, and of the squared residual that may stay with a constant beside the law."""
 
 
 def goodness_of(found: Identified) -> GoodnessOfFit:
@@ -25,6 +31,16 @@ def goodness_of(found: Identified) -> GoodnessOfFit:
     return GoodnessOfFit(tuple(doubts), tuple(f"{side} force" for side in found.sides))
 
 
+def _of_zero(side: str, measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> Iterable[Doubt]:
+    """A doubt for a force that is not zero without contact: a constant beside the law takes most of what it leaves."""
+    design = np.column_stack([predicted, np.ones_like(predicted)])
+    (_, offset), *_ = np.linalg.lstsq(design, measured, rcond=None)
+    left = float(np.sum((measured - design @ np.linalg.lstsq(design, measured, rcond=None)[0]) ** 2))
+    if abs(offset) > OFFSET * np.max(np.abs(measured)) and left < TAKEN * float(np.sum((measured - predicted) ** 2)):
+        what = f"{side}: a constant of {offset:.0f} N beside the law takes all but {TAKEN:.0%} of the squared residual"
+        yield Doubt(f"{what}: is the force zero without contact?", False)
+
+
 def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
     """Doubts on one side; what a side alone shows contradicts the result where its E* is the answer."""
     each, used = found.sides[side], side in recommended(found)
@@ -34,6 +50,8 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield Doubt(f"{side}: the area is the same in every frame: the law cannot be checked", False)
     for doubt in of_r2(f"{side} force by the law", r2):
         yield Doubt(doubt.what, used and not flat, -r2)
+    if not flat:
+        yield from _of_zero(side, each.measured, each.predicted)
     if 0.0 <= r2 < DESCRIBES and not flat:
         yield Doubt(f"{side}: R² is {r2:.2f}, the law leaves most of the force's course unexplained", False)
     for name in each.on_bound:

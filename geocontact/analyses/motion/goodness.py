@@ -10,6 +10,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.motion.marker_tasks import FAR, MarkerErrors, MarkerLimits
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.functional_joint import JointPoints
@@ -20,6 +21,8 @@ from geocontact.identify.goodness_of_fit import AT_BOUND, MUCH, Doubt, GoodnessO
 
 OFTEN = 0.05
 """Share of the frames on the end of its range from which an angle is doubtful."""
+AT_TIMES = 0.05
+"""Share of the time from which the residual force is spoken of by itself: a foot whose plate is missing, a cut-off."""
 HEAVY = 1.0 / 3.0
 """Share of the weight: a residual force above it is no error of masses or accelerations, a load is missing or wrong."""
 SLIDING = 0.01
@@ -62,8 +65,11 @@ def goodness_of_loads(forces: GeneralisedForces, said: str, misplaced: list[Misp
     if force_residual(forces).too_large or moment_residual(forces).too_large:
         doubts.append(Doubt(said, False, force_residual(forces).share))
     off = forces.residual_forces > HEAVY * forces.model.weight
-    if np.mean(off) >= MUCH:
-        doubts += of_range("the residual force exceeds a third of the weight for", float(np.mean(off)))
+    if np.mean(off) >= AT_TIMES:
+        large = tuple(of_range("the residual force exceeds a third of the weight for", float(np.mean(off))))
+        doubts += large
+        for doubt in large:
+            reserve(f"{doubt.what}: is a plate missing, or are clock, mass or cut-off others?")
     turned = forces.residual_moments > HEAVY * forces.model.weight * forces.height
     if np.mean(turned) >= MUCH:
         what = "the residual moment exceeds a third of weight × height of the mass centre for"

@@ -17,6 +17,7 @@ from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.gap.case import names, require_shares
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.data.plausible import FOOT_LAW, numbers_in
 from geocontact.data.trial import Trial
 from geocontact.gap.case.admission import repeated
 
@@ -37,6 +38,8 @@ CLEARER = 0.5
 SHARED, ALIKE = 0.5, 0.02
 """Share of a trial's samples within the times of another one, and of the standard deviation of a channel by which the
 two differ, from which it is a copy of that one: no two movements of a person are alike to a fiftieth."""
+FOOT = "foot"
+"""System whose force law has numbers by the names of `FOOT_LAW`; of a zone k_heel."""
 STEPS = 40
 """Lags that are tried to either side."""
 
@@ -58,6 +61,8 @@ def check_gathered(case: GapCase, measured: Mapping[str, Sequence[str]], file: P
         what = f"{same.channel} is the same as in [from.{same.first}], sample by sample"
         raise InputError(file, f"[from.{same.second}]", what, "name the files of that trial's own recording")
     require_shares(case, file)
+    if case.system == FOOT:
+        _doubt_law(case, file)
     for line in (*copied(trials, channels), *turned_round(trials, channels), *late(trials, channels)):
         reserve(line)
 
@@ -172,3 +177,19 @@ def _unexplained(values: Float[np.ndarray, " t"], regressors: Float[np.ndarray, 
     """Part of the variance that a straight combination of the regressors leaves."""
     off = values - regressors @ np.linalg.lstsq(regressors, values, rcond=None)[0]
     return float(np.var(off) / np.var(values))
+
+
+def _doubt_law(case: GapCase, file: Path) -> None:
+    """Numbers of a foot's force law, constants and where parameters start: refused or warned of as those of `cop`."""
+    starts = {one.name: one.start for one in case.parameters}
+    for place, values in (("[constants]", case.constants), ("[parameters]", starts)):
+        for name, value in values.items():
+            for _, known, number in numbers_in(FOOT_LAW, {name.partition("_")[0] if name in starts else name: value}):
+                refusal, doubt = known.refusal(number), known.doubt(number)
+                if refusal:
+                    raise InputError(file, f"{place} {name}", *refusal)
+                if doubt:
+                    reserve(f"{file} {place} {name}: {doubt}")
+    still, sliding = (case.constants.get(name, 0.0) for name in ("mu_s", "mu_k"))
+    if sliding > still:
+        reserve(f"{file} [constants]: kinetic friction mu_k {sliding:g} is larger than the static mu_s, {still:g}")
