@@ -45,8 +45,8 @@ BATTERY = """
 Over the commands, the shipped trials are damaged in {count} ways, each refused or warned of with its cause:
 {counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
 {meshes} sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set
-two markers of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank by 40 mm
-for one frame, in the files themselves.
+two markers of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank
+by 40 mm for one frame, in the files themselves.
 
 `--axes` turns markers and plates alike: forces, moments, points. A table of plates whose forces are upwards before that
 turn and not after it is in the model's axes already: it stays as it is, with a warning.

@@ -176,7 +176,7 @@ def calibrated_on_sole(
         return [float(np.log(f / (travel * each.stiffness))) for f, each in zip(forces, measured, strict=True)]
 
     # central differences, to the end: what one-sided ones come to differs by 1e-7 from processor to processor
-    found = least_squares(off, np.zeros(2), jac="3-point", diff_step=1e-4, xtol=1e-13, ftol=1e-15, gtol=1e-15)
+    found = least_squares(off, np.zeros(2), jac="3-point", diff_step=[1e-4, 1e-4], xtol=1e-13, ftol=1e-15, gtol=1e-15)
     return with_factors(found.x)
 
 

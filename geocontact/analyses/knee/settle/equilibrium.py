@@ -116,7 +116,7 @@ def read(o: SettleOptions) -> SettleInputs:
     moving = read_body("moving", o.moving, o.unit, o.place_moving, closed["moving"])
     fixed = read_body("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
     refuse_two_spaces(moving, fixed)
-    beside = (*(() if o.motion is None else (o.motion.name,)), *(() if o.side is None else (f"`side` {o.side}",)))
+    beside = (*(() if o.motion is None else (o.motion.name,)), f"`side` {o.side}")
     check_surfaces(moving, fixed, bodies=o.bodies, layered=True, beside=beside)
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
