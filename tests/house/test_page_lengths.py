@@ -11,11 +11,12 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_150, "how-to": 25_750, "everything": 85_200}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_250}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
-controller; a foot of one's own."""
+controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, and keys and checks of
+made pages."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -24,7 +25,7 @@ LIMITS = {
     "how-to/elbow_design.md": 950,
     "how-to/figures.md": 440,
     "how-to/fit.md": 640,
-    "how-to/gap.md": 1990,
+    "how-to/gap.md": 2010,
     "how-to/inverse.md": 1250,
     "how-to/knee_chain.md": 1050,
     "how-to/knee_settle.md": 920,
@@ -48,12 +49,12 @@ LIMITS = {
     "how-to/regions_and_sides.md": 330,
     "how-to/shoulder.md": 1060,
     "how-to/shoulder_support.md": 930,
-    "how-to/sit_to_stand.md": 1070,
+    "how-to/sit_to_stand.md": 1090,
     "how-to/sit_to_stand_design.md": 340,
     "how-to/units.md": 360,
     "reference/accuracy.md": 330,
     "reference/area_csv.md": 790,
-    "reference/command_line.md": 410,
+    "reference/command_line.md": 420,
     "reference/corrected_numbers.md": 430,
     "reference/durability.md": 410,
     "reference/gap_benchmark.md": 2570,
@@ -68,7 +69,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1610,
+    "reference/written_files.md": 1670,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
