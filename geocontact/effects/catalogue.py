@@ -81,6 +81,6 @@ def candidates(system: System) -> tuple[Candidate, ...]:
     >>> spring = gc.simulator_base("spring", {"angle": "rad"}, {"torque": "N m"}, run)
     >>> system = spring.build((gc.Parameter("k", "N m/rad", 100.0, 10.0, 400.0),), {}, {})
     >>> [one.label for one in gc.candidates(system)][:4]
-    ['time_shift', 'filter_lag', 'motion_offset.angle', 'gravity_load']
+    ['time_shift', 'clock_slip.once', 'clock_slip.steady', 'filter_lag']
     """
     return tuple(one for effect in (*EFFECTS, *system.own) for one in effect.candidates(system))

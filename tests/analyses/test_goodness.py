@@ -242,6 +242,8 @@ PAIRS = {
 }
 
 
+CONFRONTED = {"sit-to-stand calibrate"}
+"""Pairs whose wrong input the way in finds too: the command ends with 2."""
 NAMES = [pytest.param(each, marks=pytest.mark.slow) if each.startswith("sit-to-stand") else each for each in PAIRS]
 
 
@@ -256,7 +258,7 @@ def _quiet() -> object:
 @pytest.mark.parametrize("name", NAMES)
 def test_a_wrong_input_contradicts_and_nothing_is_said_to_be_sure(name: str, tmp_path: Path) -> None:
     result = PAIRS[name].wrong(tmp_path)
-    assert (result.fit_outcome, result.exit_code) == ("contradicts", 1)
+    assert (result.fit_outcome, result.exit_code) == ("contradicts", 2 if name in CONFRONTED else 1)
     assert result.sentences[0].startswith("the result contradicts its data")
     assert any(PAIRS[name].why in doubt.what and doubt.contradicts for doubt in result.record.fit.doubts)
     for line in result.sentences[1:]:

@@ -103,7 +103,9 @@ def test_a_bare_number_that_cannot_be_meant_names_the_likely_unit() -> None:
     layer = {"unit": "mm", "side": "right", "poisson": 0.46, "motion": SAMPLES / "gait.csv"}
     with pytest.raises(gc.InputError, match=r"`modulus`: 0.000463 MPa cannot be .*; is 463 MPa meant\?"):
         gc.knee.settle(FEMUR, INSERT, modulus=463, **layer)
-    with pytest.raises(gc.InputError, match=r"`level`: 10000 % is not 0 to 100 %; is 100 % meant\?"):
+    with pytest.raises(
+        gc.InputError, match=r"`level`: 10000 % cannot be a level of support: that is 0 to 100 %; is 100 % meant\?"
+    ):
         gc.shoulder.simulate(SAMPLES / "overhead_P1T1S100" / "markers.trc", level=100)
 
 

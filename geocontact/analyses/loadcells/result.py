@@ -2,11 +2,12 @@
 
 >>> import geocontact as gc, numpy as np, pandas as pd
 >>> time = np.linspace(0.0, 1.0, 101)
->>> cells = {name: 300.0 * np.sin(np.pi * time) for name in ("PM [N]", "AM [N]", "AL [N]", "PL [N]")}
+>>> largest = {"PM [N]": 400.0, "AM [N]": 300.0, "AL [N]": 200.0, "PL [N]": 250.0}
+>>> cells = {name: force * np.sin(np.pi * time) for name, force in largest.items()}
 >>> pd.DataFrame({"time [s]": time} | cells).to_csv("cells.csv", index=False)
 >>> result = gc.load_cells("cells.csv")
 >>> print(result)
-largest forces: medial 604.6 N, lateral 595.4 N, total 1200.0 N (total at 0.5 s)
+largest forces: medial 696.5 N, lateral 453.5 N, total 1150.0 N (total at 0.5 s)
 """
 
 from __future__ import annotations

@@ -253,7 +253,7 @@ FINDINGS: dict[str, Finding] = {
     "congruence 400 mm": Finding(touching(congruence=0.4), "refused: `congruence`: 400 mm cannot be"),
     "congruence 0.1 mm": Finding(touching(congruence=1e-4), "refused: .*give `congruence` 8.4mm"),
     "pose-sd x=0.3": Finding(pose_sd("x=0.3"), "refused: --pose-sd: .*write --pose-sd t=0.5,r=1"),
-    "adhesion without work": Finding(pressed("--adhesion", "jkr"), "refused: --work-of-adhesion: is missing"),
+    "adhesion without work": Finding(pressed("--adhesion", "jkr"), "refused: --adhesion: needs --work-of-adhesion"),
     "work without adhesion": Finding(pressed("--work-of-adhesion", 0.05), "refused: .*no effect without --adhesion"),
     "negative work": Finding(
         pressed("--adhesion", "jkr", "--work-of-adhesion", -0.05), "refused: .*cannot be the work of adhesion"

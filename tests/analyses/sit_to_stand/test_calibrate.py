@@ -50,7 +50,7 @@ def changed(folder: Path, *changes: tuple[str, str], file: str = "study.toml", t
     [
         ("value = 70,", "value = 7000,", "cannot be the mass of a person"),
         ("[noise]", "[noises]", "noises: is not known here; perhaps noise"),
-        ("value = 2,", "value = 0,", "is not above 0"),
+        ("value = 2,", "value = 0,", "0 N cannot be the standard deviation of a force"),
         ('rates = "T1_rates.sto"', "", "rates is tracked, and this trial has none"),
         ('name = "T2"', 'name = "T1"', "two have the name 'T1'"),
         ('name = "T2"', 'name = "../T2"', "cannot be that of a file"),

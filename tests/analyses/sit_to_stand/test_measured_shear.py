@@ -76,6 +76,7 @@ def test_a_channel_without_baseline_is_not_lost() -> None:
     assert nearer_than_both(errors) == (1, 1)
 
 
+@pytest.mark.filterwarnings("ignore:.*is unusual for how many nodes")
 @pytest.mark.slow
 def test_the_comparison_has_error_bias_and_r2_of_the_shear(tmp_path: Path) -> None:
     """By hand from the curves of the result itself."""

@@ -38,8 +38,8 @@ CLEARER = 0.5
 SHARED, ALIKE = 0.5, 0.02
 """Share of a trial's samples within the times of another one, and of the standard deviation of a channel by which the
 two differ, from which it is a copy of that one: no two movements of a person are alike to a fiftieth."""
-FOOT = "foot"
-"""System whose force law has numbers by the names of `FOOT_LAW`; of a zone k_heel."""
+FOOT, ZONE = "foot", "k_"
+"""System whose force law has numbers by the names of `FOOT_LAW`, and what names of its zones begin with: k_heel."""
 STEPS = 40
 """Lags that are tried to either side."""
 
@@ -180,9 +180,14 @@ def _unexplained(values: Float[np.ndarray, " t"], regressors: Float[np.ndarray, 
 
 
 def _doubt_law(case: GapCase, file: Path) -> None:
-    """Numbers of a foot's force law, constants and where parameters start: refused or warned of as those of `cop`."""
+    """Numbers of a foot's force law, constants and where parameters start: refused or warned of as those of `cop`.
+
+    Of the zones' stiffnesses only the largest is looked at: a zone that a stance hardly loads may have any, or none.
+    """
     starts = {one.name: one.start for one in case.parameters}
-    for place, values in (("[constants]", case.constants), ("[parameters]", starts)):
+    zones = sorted((name for name in starts if name.startswith(ZONE)), key=starts.__getitem__)[:-1]
+    asked = {name: value for name, value in starts.items() if name not in zones}
+    for place, values in (("[constants]", case.constants), ("[parameters]", asked)):
         for name, value in values.items():
             for _, known, number in numbers_in(FOOT_LAW, {name.partition("_")[0] if name in starts else name: value}):
                 refusal, doubt = known.refusal(number), known.doubt(number)
