@@ -229,6 +229,7 @@ BAND = Plausible("a frequency of movement", HZ, (1e-6, 1000.0), (1e-3, 20.0))
 RATE = Plausible("a sampling rate", HZ, (5.0, 1e4))
 FRAME_RATE = Plausible("a frame rate", HZ, (1e-3, 1e5), (0.5, 5000.0))
 CLOCK = Plausible("a time of a recording", S, (-1e6, 1e10))  # clocks that count from 1970 included
+TRIAL_LIMIT = Plausible("the time for a trial", S, (1.0, 1e7), (1.0, 1e6))
 SEARCH = Plausible("the time of a search", S, (1e-3, 1e7), (1.0, 1e5))
 DELAY = Plausible("a lag of clocks", S, (-3600.0, 3600.0), (-60.0, 60.0))
 GAP = Plausible("a gap in a recording", S, (0.0, 60.0), (0.0, 2.0))

@@ -11,6 +11,7 @@ from geocontact.analyses.frame.marks import Requires, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import TRIAL_LIMIT
 
 LOCAL = "local"
 SIZE = re.compile(r"[0-9]+(\.[0-9]+)? ?[kMGT]i?B")
@@ -65,7 +66,7 @@ class CohortOptions(Options):
     scheduler: str = LOCAL
     workers: int | None = None
     memory: str | None = None
-    limit: Annotated[float | None, Typed("s", "finite", "600.0", "[s]", float)] = None
+    limit: Annotated[float | None, Typed("s", "finite", "600.0", "[s]", float), TRIAL_LIMIT] = None
 
     @property
     def local(self) -> bool:
@@ -82,8 +83,6 @@ class CohortOptions(Options):
             if not self.local and getattr(self, name) is not None:
                 what = "has no effect with `scheduler`: its workers were started with theirs"
                 raise InputError("", f"`{name}`", what, "leave it out")
-        if self.limit is not None and self.limit < 1.0:
-            raise InputError("", "`limit`", f"{self.limit:g} s is less than a second", "give seconds: 600")
         if self.memory is not None and not SIZE.fullmatch(self.memory):
             raise InputError("", "`memory`", f"{self.memory!r} is not a size of memory", "write for example 4GB")
         if self.workers is not None and self.workers < 1:

@@ -88,10 +88,14 @@ def test_whose_cycles_count_is_asked_for(tmp_path: Path) -> None:
         Cutting(cutting.file, cutting.events, "left", None).cycles_of("other")
 
 
+SHARES = (0.9, 1.0, 1.1, 1.0 + 1e-9)
+"""Shares of four cells in a force: no two are equal, which is asked about."""
+
+
 def test_load_cells_are_cut_at_the_same_events(tmp_path: Path) -> None:
     time = np.linspace(0.0, 2.0, 201)
     force = np.where(time < 1.0, 200.0, 300.0) * np.sin(np.pi * (time % 1.0)) + 1.0
-    cells = dict.fromkeys(("PM [N]", "AM [N]", "AL [N]", "PL [N]"), force)
+    cells = {name: share * force for name, share in zip(("PM [N]", "AM [N]", "AL [N]", "PL [N]"), SHARES, strict=True)}
     file = tmp_path / "normal.csv"
     pd.DataFrame({"time [s]": time} | cells).to_csv(file, index=False)
     with pytest.warns(gc.InputWarning, match="one cycle per style"):

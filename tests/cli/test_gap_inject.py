@@ -37,7 +37,10 @@ def test_the_case_its_diagnosis_and_the_answer_are_written(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--effect", "rust"), "--effect: 'rust' is not an effect of this system; there are time_shift, filter_lag"),
+        (
+            ("--effect", "rust"),
+            "--effect: 'rust' is not an effect of this system; there are time_shift, clock_slip, filter_lag",
+        ),
         (("--effect", "unit_error"), "--effect: unit_error has variants; choose one of unit_error.force"),
         (
             ("--effect", "damping", "--value", "b=1"),

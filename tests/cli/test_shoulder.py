@@ -55,8 +55,8 @@ def test_a_device_that_cannot_be(tmp_path: Path, name: str) -> None:
 
 
 OPTIONS = {
-    "level": (("--level", "120%"), "--level: 120 % is not 0 to 100 %"),
-    "less than nothing": (("--level", "-20%"), "--level: -20 % is not 0 to 100 %"),
+    "level": (("--level", "120%"), "--level: 120 % cannot be a level of support: that is 0 to 100 %"),
+    "less than nothing": (("--level", "-20%"), "--level: -20 % cannot be a level of support: that is 0 to 100 %"),
     "per cent": (("--level", "50"), "'50' may be meant in per cent; write 50% or 0.5"),
     "device": (("--device", "lucie"), "'lucie' is neither a file nor a built-in device"),
     "lone current": (("--tool-current", "2"), "--tool-current: has no effect without --tool"),

@@ -28,6 +28,7 @@ WITHOUT = {
     "analyses/prosthesis/design/trial.py": "a table of an open file",
     "data/stub_names.py": OWN,
     "geometry/kernels/compile.py": OWN,
+    "io/opensim/muscle_paths.py": WRITTEN,
     "io/recordings/pose_draws.py": "arrays of an open file",
     "io/text/results.py": "a table of text that was read",
     "study/collect.py": WRITTEN,

@@ -26,6 +26,9 @@ LOOSE = [
     AnsweredDesign("", 0.85, 3.6, 0.844),
 ]
 
+NONE: dict[str, Any] = {"strap": None, "torque": None, "force": None}
+"""Channels of a stand-in that has coordinates alone."""
+
 
 def test_the_first_line_is_the_aim_and_the_second_the_bargain() -> None:
     lines = answer(WHAT, "N", [WORN, ALONE, CHOSEN], LOOSE)
@@ -98,8 +101,8 @@ def test_channels_that_are_given_do_not_count_for_the_prediction() -> None:
 @pytest.mark.parametrize(("shift", "count"), [(0.0, 1), (1e-3, 0)])
 def test_a_held_out_trial_that_is_one_of_the_calibration_is_noticed(shift: float, count: int) -> None:
     q = np.linspace(0.0, 1.0, 12).reshape(3, 4)
-    held_out: Any = SimpleNamespace(name="P1", q=q)
-    known: Any = [SimpleNamespace(name="T9", q=q[:2]), SimpleNamespace(name="T2", q=q + shift)]
+    held_out: Any = SimpleNamespace(name="P1", q=q, **NONE)
+    known: Any = [SimpleNamespace(name="T9", q=q[:2], **NONE), SimpleNamespace(name="T2", q=q + shift, **NONE)]
     with collecting(Record("sit-to-stand compare", {})) as record:
         warn_of_known([held_out], known)
     assert len(record.warnings) == count

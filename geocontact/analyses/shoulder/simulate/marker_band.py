@@ -28,7 +28,7 @@ CHANNELS = {"elevation": ("deg", float(np.degrees(1.0))), "supporting": ("N", 1.
 
 
 @dataclass(frozen=True, eq=False)
-class MarkerBand:
+class ArmBand:
     """One arm.
 
     Parameters
@@ -64,7 +64,7 @@ def displaced(motion: ArmMotion, lower: Float[np.ndarray, " 3"], upper: Float[np
     return replace(motion, interface=interface, shoulder=shoulder, elevation=elevation(shoulder, interface))
 
 
-def marker_bands(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulateOptions) -> tuple[MarkerBand, ...]:
+def marker_bands(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulateOptions) -> tuple[ArmBand, ...]:
     """Bands of each arm; none where no error is stated. InputError where hardly a draw can be simulated."""
     if o.marker_error is None:
         return ()
@@ -72,9 +72,7 @@ def marker_bands(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulateOp
     return tuple(_band(worn, arm, o, o.marker_error, rng) for arm in arms)
 
 
-def _band(
-    worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, error: float, rng: np.random.Generator
-) -> MarkerBand:
+def _band(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, error: float, rng: np.random.Generator) -> ArmBand:
     motion, count = arm.simulation.motion, o.draws or DRAWS
     control = None if worn.controllers is None else worn.controllers[arm.side]
     found: dict[str, list[Float[np.ndarray, " t"]]] = {name: [] for name in CHANNELS}
@@ -104,7 +102,7 @@ def _band(
         f"{high[1]:.1f} deg, supporting force up to {peak[0]:.1f} to {peak[1]:.1f} N (95% of {used} draws)"
     )
     note(f"marker errors, {arm.side}", {"supporting_max_N": peak.tolist(), "elevation_max_deg": high.tolist()})
-    return MarkerBand(arm.side, motion.time, ends, used, count - used)
+    return ArmBand(arm.side, motion.time, ends, used, count - used)
 
 
 def _ends(values: Float[np.ndarray, "d t"]) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"]]:
@@ -112,7 +110,7 @@ def _ends(values: Float[np.ndarray, "d t"]) -> tuple[Float[np.ndarray, " t"], Fl
     return lower, upper
 
 
-def band_table(bands: Sequence[MarkerBand]) -> pd.DataFrame:
+def band_table(bands: Sequence[ArmBand]) -> pd.DataFrame:
     """Both ends of every channel over time, one arm below the other."""
     parts = []
     for band in bands:

@@ -38,7 +38,7 @@ from geocontact.analyses.shoulder.simulate.arms import (
     summary_of,
 )
 from geocontact.analyses.shoulder.simulate.exports import write_angles, write_external_loads, write_lines, write_plane
-from geocontact.analyses.shoulder.simulate.marker_band import MarkerBand, band_table, marker_bands
+from geocontact.analyses.shoulder.simulate.marker_band import ArmBand, band_table, marker_bands
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulate.person_answers import (
     PersonAnswers,
@@ -86,7 +86,7 @@ class ShoulderSimulateResult(Result):
     wearer: Wearer
     influences: Mapping[Side, tuple[Influence, ...]]
     person: PersonAnswers | None = None
-    bands: tuple[MarkerBand, ...] = ()
+    bands: tuple[ArmBand, ...] = ()
 
     @property
     def time(self) -> dict[str, Float[np.ndarray, " t"]]:
