@@ -179,7 +179,8 @@ class WithUnit:
 
     def doubted(self, value: float, stated: object, info: Any) -> None:
         """An InputWarning for a value [SI] that is unusual; `info` is pydantic's ValidationInfo."""
-        written = stated.get("value") if isinstance(stated, dict) else None
+        number = stated.get("value") if isinstance(stated, dict) else None
+        written = float(number) if isinstance(number, int | float) else None
         doubt = None if isinstance(self.known, str) else self.known.doubt(value, written)
         if doubt is not None:
             warnings.warn(InputWarning(f"{info.context} {info.field_name}: {doubt}"), stacklevel=2)
