@@ -155,6 +155,8 @@ def channels_of(
         torque = joint_torques(
             files, subject.device, whole.time, whole.values[:, len(COORDINATES) :], used, noise.torque
         )
+    else:
+        _doubt_unused(files)
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         shear = site_shear(files.strap, time)
@@ -182,6 +184,13 @@ def channels_of(
         )
     )
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
+
+
+def _doubt_unused(files: StandingTrialFiles) -> None:
+    """A warning for what says of the exoskeleton's torques where torques are not tracked."""
+    for key in ("motors", "mode"):
+        if getattr(files, key) is not None:
+            reserve(f"{files.name}: {key} has no effect, as torque is not among tracks: add it, or leave {key} out")
 
 
 def _require_tracked(files: StandingTrialFiles, tracks: tuple[str, ...], study: Path, place: str) -> None:
