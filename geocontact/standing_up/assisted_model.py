@@ -97,7 +97,7 @@ def assisted_model(
     along = {name: torque[k] for k, name in enumerate(("ankle", "knee", "hip", "exo_hip"))} | {"exo_knee": helped}
     tree = tree_of(two_chains(subject))
     law = strap or _at_sites(sites)
-    standing = worn_model(tree, p, along, vertcat(part, torque), parameters, law, identified=subject.device.identified)
+    standing = worn_model(tree, p, along, vertcat(part, torque), parameters, law, device=subject.device)
     return AssistedModel(standing, helped, width)
 
 

@@ -212,7 +212,9 @@ class CalibratedPhase:
     profiles
         Of the parameters as found, before any correction.
     selection
-        Of all candidates, which the trials identify together; none where nothing was asked of it.
+        Of all candidates, which the trials identify together.
+    unselected
+        Why there is no selection; empty where there is one.
     """
 
     name: str
@@ -227,6 +229,7 @@ class CalibratedPhase:
     doubt: str = ""
     profiles: tuple[PhaseProfile, ...] = ()
     selection: tuple[SelectedParameter, ...] = ()
+    unselected: str = ""
 
     @property
     def certified(self) -> bool:

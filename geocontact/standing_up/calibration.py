@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.collocation.solve import Progress
-from geocontact.standing_up.calibrated_phase import CalibratedPhase, PhaseSearch, calibrated_phase
+from geocontact.standing_up.calibrated_phase import INTERRUPTED, CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.chain import FOOT_PARAMETERS, feet_on_ground
 from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
 from geocontact.standing_up.exoskeleton import strapped
@@ -87,7 +87,8 @@ def _phase(
 ) -> CalibratedPhase:
     """A phase with what is usually free, and which of all candidates its trials identify; `names` are both.
 
-    Where the search selects, the phase is solved again with those, and their selection is that of the first answer.
+    Where the search selects, the phase is solved again with those, and their selection is that of the first answer;
+    where nothing is selected the usual ones stay free, and are searched as asked all the same.
     """
     usual_free, every = names
 
@@ -95,24 +96,26 @@ def _phase(
         build_free = partial(_with_free, build, free)
         return calibrated_phase(name, model, given.trials, given.noise, build_free, how, progress, held(free))
 
-    one = solved(usual_free, replace(search, resamples=0, starts=0, profiles=0) if search.select else search)
+    how = replace(search, resamples=0, starts=0, profiles=0) if search.select else search
+    one = solved(usual_free, how)
+    if not one.found.solved and how != search and not one.found.ending.startswith(INTERRUPTED):
+        how = search
+        one = solved(usual_free, how)
     if not one.found.solved:
-        return one
-    chosen = selection_among(one, build(given.trials, one.found.p, every))
-    if not chosen:
-        return one
+        return replace(one, unselected="the search did not converge")
+    chosen, why = selection_among(one, build(given.trials, one.found.p, every))
     free = [of.name for of in chosen if of.outcome == "identified"]
-    if search.select and free:
-        one = solved(free, search)
-    return replace(one, selection=chosen)
+    if search.select and (free or how != search):
+        one = solved(free or usual_free, search)
+    return replace(one, selection=chosen, unselected=why)
 
 
-def selection_among(one: CalibratedPhase, whole: PhaseProblem) -> tuple[SelectedParameter, ...]:
-    """Selection of the parameters that `whole` frees, about an answer; none where the curvature does not exist."""
+def selection_among(one: CalibratedPhase, whole: PhaseProblem) -> tuple[tuple[SelectedParameter, ...], str]:
+    """Selection of the parameters that `whole` frees, about an answer; none, and why, where there is no curvature."""
     try:
-        return selected(whole.free, trials_information(whole, one.found))
-    except (ValueError, np.linalg.LinAlgError):
-        return ()
+        return selected(whole.free, trials_information(whole, one.found)), ""
+    except (ValueError, np.linalg.LinAlgError) as error:
+        return (), str(error)
 
 
 def _with_free(build: BuildFree, free: Sequence[str], trials: Sequence[StandingTrial], start: Start) -> PhaseProblem:

@@ -40,7 +40,7 @@ from geocontact.standing_up.chain import (
 )
 from geocontact.standing_up.standing_model import ModelConstants, StandingModel
 from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, ContactParameter, StrapSite, searched
-from geocontact.standing_up.worn_device import PARTS
+from geocontact.standing_up.worn_device import PARTS, WornDevice
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -136,7 +136,7 @@ def with_exoskeleton(
     p, torque = SX.sym("p", len(parameters)), SX.sym("torque", len(tree.names) - 3)
     along = {name: torque[k] for k, name in enumerate(tree.names[3:])}
     chair = SX.sym("chair", COMPONENTS) if seated else None
-    return worn_model(tree, p, along, torque, parameters, strap, chair, identified=subject.device.identified)
+    return worn_model(tree, p, along, torque, parameters, strap, chair, device=subject.device)
 
 
 def strapped(subject: Subject, sites: Sequence[StrapSite], *, seated: bool = False) -> StandingModel:
@@ -154,7 +154,7 @@ def worn_model(
     law: StrapLaw | None = None,
     chair: SX | None = None,
     *,
-    identified: bool = False,
+    device: WornDevice | None = None,
 ) -> StandingModel:
     """Both chains on the ground with a strap between them.
 
@@ -168,8 +168,8 @@ def worn_model(
         Of the strap; `thigh_strap` by default.
     chair
         Force and moment of a chair, given over time behind the other inputs.
-    identified
-        Whether the exoskeleton's bodies are those of its own motion.
+    device
+        Of which `tree` has the bodies.
     """
     feet = len(FOOT_PARAMETERS)
     ground = ground_on_feet(tree, p[:feet, :], GROUND_LAW)
@@ -189,7 +189,7 @@ def worn_model(
         strap.normal_energy,
         0 if chair is None else COMPONENTS,
         strap.elsewhere,
-        ModelConstants(tree.model, GROUND_LAW, strap.sites, identified),
+        ModelConstants(tree.model, GROUND_LAW, strap.sites, device),
     )
 
 

@@ -24,7 +24,7 @@ from geocontact.standing_up.assisted_movement import Movement, Movements, Stoppe
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.numbers_that_ran import FROM_FILE, Ran, model_numbers, parameter_numbers, search_numbers
 from geocontact.standing_up.phase import PhaseProblem, judged
-from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite
+from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, StrapSite
 from geocontact.standing_up.trial_result import TrialResult, trial_result
 from geocontact.standing_up.trials import StandingTrial
 
@@ -280,6 +280,8 @@ def design_numbers(
 ) -> list[Ran]:
     """Model, held parameters and the movement's cost once; what may vary and the meshes for each design."""
     first, every = designs[0].movement, model.standing.parameters
+    there = () if model.standing.constants is None else model.standing.constants.sites
+    absent = {name for site in STRAP_SITES if site.name not in [each.name for each in there] for name in site.names}
     chosen = {parameter for parameter, _, _ in ROOM.values()}
     rows = model_numbers(model.standing)
     rows.append(Ran("help width", model.width, "-", "invented", "of the help, in parts of the movement"))
@@ -291,7 +293,7 @@ def design_numbers(
     for one in designs:
         prefix = f"{one.name} "
         own = parameter_numbers(every, one.movement.found.p, note="as chosen, or as given", prefix=prefix)
-        rows += [row for row in own if row.number.removeprefix(prefix) in chosen]
+        rows += [row for row in own if row.number.removeprefix(prefix) in chosen - absent]
         if one.design is not None:
             note = "true peak of the person's knee torque at most"
             rows.append(Ran(f"{prefix}limit of the knee", one.design.task.knee, "N m", "derived", note))

@@ -20,10 +20,12 @@ from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, ContactParameter, StrapSite
 from geocontact.standing_up.trials import SHIPPED, StandingTrial
+from geocontact.standing_up.worn_device import DeviceMasses, WornDevice
 
 DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
 OF_BOTH = "of both sides"
-IDENTIFIED = "of both sides, by sit-to-stand device and [masses]"
+IDENTIFIED = ", by sit-to-stand device"
+WEIGHED = "as the study has it"
 FROM_FILE = "as the file of parameters gives it"
 PERTURBED = "of the file of parameters, times a factor"
 NOISE_UNITS = {
@@ -53,8 +55,7 @@ def model_numbers(model: StandingModel) -> list[Ran]:
     of = model.constants
     if of is None:
         raise ValueError("this model does not say what it was built of")
-    worn = bool(of.sites)
-    rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, worn, of.identified)]
+    rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, of.device)]
     rows += [*joint_numbers(of.chain), *_ground(of.ground)]
     return rows + [row for site in of.sites for row in _strap(site)]
 
@@ -149,17 +150,24 @@ def search_numbers(motions: Sequence[CollocatedMotion], trials: Sequence[Standin
     return rows
 
 
-def _body(body: Body, worn: bool, identified: bool) -> Iterator[Ran]:
-    of_device = body.name.startswith("exo_")
-    source: Source = "invented" if of_device and not identified else "derived"
-    note = (IDENTIFIED if identified else OF_BOTH) if of_device else DE_LEVA
-    if worn and body.name == "foot":
-        note += "; with foot plates, which are invented"
+def _body(body: Body, device: WornDevice | None) -> Iterator[Ran]:
+    """Rows of one body; masses that differ from the shipped ones are the study's."""
+    source: Source = "derived"
+    mass: tuple[Source, str] = ("derived", DE_LEVA)
+    by = ""
+    if device is not None and (body.name == "foot" or body.name.startswith("exo_")):
+        part = body.name.removeprefix("exo_").replace("foot", "foot_plate")
+        weighed = getattr(device.masses, part) != getattr(DeviceMasses(), part)
+        if body.name == "foot":
+            mass = ("derived", f"{DE_LEVA}; with foot plates, {WEIGHED if weighed else 'which are invented'}")
+        else:
+            mass = ("derived", f"of both sides, {WEIGHED}") if weighed else ("invented", OF_BOTH)
+            source, by = ("derived", IDENTIFIED) if device.identified else ("invented", "")
     name = f"body {body.name}"
-    yield Ran(f"{name} mass", body.mass, "kg", source, note)
+    yield Ran(f"{name} mass", body.mass, "kg", *mass)
     for axis, value in zip("xy", body.centre[:2], strict=True):
-        yield Ran(f"{name} centre_{axis}", float(value), "m", source, "mass centre in the body's frame")
-    yield Ran(f"{name} inertia", float(body.inertia[2, 2]), "kg m^2", source, "about z through the mass centre")
+        yield Ran(f"{name} centre_{axis}", float(value), "m", source, f"mass centre in the body's frame{by}")
+    yield Ran(f"{name} inertia", float(body.inertia[2, 2]), "kg m^2", source, f"about z through the mass centre{by}")
 
 
 def joint_numbers(chain: Multibody) -> Iterator[Ran]:

@@ -15,6 +15,7 @@ from geocontact.dynamics.equations import Equations
 from geocontact.dynamics.sphere_contact import StribeckFriction
 from geocontact.dynamics.symbols import column
 from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
+from geocontact.standing_up.worn_device import WornDevice
 
 if TYPE_CHECKING:
     from casadi import SX
@@ -46,14 +47,14 @@ class ModelConstants:
     ----------
     sites
         Where straps are; none without an exoskeleton.
-    identified
-        Whether the exoskeleton's bodies are those of its own motion, and not the shipped ones.
+    device
+        The exoskeleton; None without one.
     """
 
     chain: Multibody
     ground: GroundLaw
     sites: tuple[StrapSite, ...] = ()
-    identified: bool = False
+    device: WornDevice | None = None
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from geocontact.identify.signals.filters import UNEVEN, zero_lag
 
 SEATED = 5.0
 """Force on the chair from which on one sits [N], the study's."""
+BRIEF = 0.1
+"""Time [s] in which a load on the chair, or its absence, counts where it takes up more than half; invented."""
 CHAIR_CUTOFF = 10.0
 """Cut-off of the chair's force [Hz], ours: the load is given, so that a motion would have to follow its noise."""
 STANDING = 20.0
@@ -24,6 +26,22 @@ BESIDE = 0.5
 
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
+
+
+def steady(time: Times, force: Times) -> Times:
+    """Running median of the chair's force over `BRIEF` [N]: without single samples of noise, its falls where they were.
+
+    NaN counts as none.
+
+    Parameters
+    ----------
+    force
+        Normal force on the chair, without a sign [N].
+    """
+    from scipy.ndimage import median_filter
+
+    half = int(0.5 * BRIEF / float(np.median(np.diff(time))))
+    return np.asarray(median_filter(np.nan_to_num(force), 2 * half + 1, mode="reflect"))
 
 
 def seat_off(time: Times, force: Times) -> float:

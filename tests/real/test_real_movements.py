@@ -23,3 +23,4 @@ def test_five_squats_of_one_recording_are_found(data_dir: Path) -> None:
         assert len(inside) and abs(0.5 * (one.start + one.end) - inside.mean()) < 0.15
         assert 0.3 < -one.rise < 0.45 and 1.0 < one.end - one.start < 1.6
     assert [one.kind for one in movements_of(table.time, height)] == ["going down", "rising"] * 5
+    assert [one.kind for one in movements_of(table.time, height, squats=True)] == ["squat"] * 5

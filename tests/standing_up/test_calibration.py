@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,6 +17,7 @@ from geocontact.standing_up.chain import EVERY_PLANTED, FOOT_PARAMETERS, SOUGHT,
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.prediction import contact_parameters, predicted_trial
+from geocontact.standing_up.selection import SelectedParameter
 from geocontact.standing_up.strap_sites import STRAP_SITES, THIGH_STRAP, ContactParameter, deviations
 from geocontact.standing_up.trials import StandingNoise, StandingTrial, StandingUpTrials, rising
 from tests.unchecked import unchecked
@@ -44,6 +46,18 @@ def trials(*, worn: bool) -> StandingUpTrials:
     return StandingUpTrials(SUBJECT, StandingNoise(), (trial,), worn, sought, tracks)
 
 
+@dataclass(frozen=True)
+class StandIn:
+    """Of an answer."""
+
+    name: str
+    found: SimpleNamespace
+    phase: SimpleNamespace
+    numbers: None = None
+    selection: tuple[SelectedParameter, ...] = ()
+    unselected: str = ""
+
+
 @pytest.mark.parametrize(("worn", "solved", "names"), [(False, True, "A"), (True, True, "AB"), (True, False, "A")])
 def test_b_follows_where_a_was_solved_and_holds_its_feet(
     monkeypatch: pytest.MonkeyPatch, worn: bool, solved: bool, names: str
@@ -53,12 +67,12 @@ def test_b_follows_where_a_was_solved_and_holds_its_feet(
     def searched(name, model, each, noise, build, search, progress, held):  # type: ignore[no-untyped-def]
         bounds[name] = build(each, None).control.p
         progress(3, 2.0, 1.0)
-        found = SimpleNamespace(solved=solved, p=np.r_[FEET, np.zeros(len(model.parameters) - len(FEET))])
-        return SimpleNamespace(name=name, found=found, numbers=None, phase=SimpleNamespace(parameters=model.parameters))
+        found = SimpleNamespace(solved=solved, ending="", p=np.r_[FEET, np.zeros(len(model.parameters) - len(FEET))])
+        return StandIn(name, found, SimpleNamespace(parameters=model.parameters))
 
     monkeypatch.setattr(calibration, "calibrated_phase", searched)
     monkeypatch.setattr(calibration, "held_covariance", lambda numbers, parameters: np.zeros((len(parameters),) * 2))
-    monkeypatch.setattr(calibration, "selection_among", lambda one, whole: ())
+    monkeypatch.setattr(calibration, "selection_among", lambda one, whole: ((), "not asked"))
     found = calibrated_phases(given, PhaseSearch(OPTIONS), lambda *words: told.append(words))
     assert "".join(phase.name for phase in found) == names  # type: ignore[misc]
     assert told == [(name, 3, 2.0, 1.0) for name in names]
@@ -70,6 +84,46 @@ def test_b_follows_where_a_was_solved_and_holds_its_feet(
         np.testing.assert_array_equal(low[: len(FEET)], FEET)
         np.testing.assert_array_equal(high[: len(FEET)], FEET)
         assert (low[len(FEET) :] < high[len(FEET) :]).all(), "all of the strap's are sought"
+
+
+TOE = (SelectedParameter("toe", 40.0, 40.0, "identified", 1), SelectedParameter("heel", 1.0, 1.0, "not identified", 0))
+FULL = PhaseSearch(OPTIONS, starts=2, resamples=3, profiles=4, select=True)
+BRIEF = replace(FULL, starts=0, resamples=0, profiles=0)
+
+
+@pytest.mark.parametrize(
+    ("search", "solves", "selection", "runs", "why"),
+    [
+        (FULL, (True, True), (TOE, ""), [(BRIEF, SOUGHT), (FULL, ("toe",))], ""),
+        (FULL, (True, True), (TOE[1:], ""), [(BRIEF, SOUGHT), (FULL, SOUGHT)], ""),
+        (FULL, (True, True), ((), "it is singular"), [(BRIEF, SOUGHT), (FULL, SOUGHT)], "it is singular"),
+        (FULL, (False, True), (TOE, ""), [(BRIEF, SOUGHT), (FULL, SOUGHT), (FULL, ("toe",))], ""),
+        (FULL, (False, False), (TOE, ""), [(BRIEF, SOUGHT), (FULL, SOUGHT)], "the search did not converge"),
+        (BRIEF, (True,), (TOE[1:], ""), [(BRIEF, SOUGHT)], ""),
+        (replace(FULL, select=False), (True,), (TOE, ""), [(replace(FULL, select=False), SOUGHT)], ""),
+    ],
+)
+def test_a_selection_that_fails_drops_nothing_that_was_asked(
+    monkeypatch: pytest.MonkeyPatch,
+    search: PhaseSearch,
+    solves: tuple[bool, ...],
+    selection: tuple[tuple[SelectedParameter, ...], str],
+    runs: list[tuple[PhaseSearch, tuple[str, ...]]],
+    why: str,
+) -> None:
+    """Starts, resamples and profiles follow with what was selected, or with the usual ones and the reason."""
+    ran: list[tuple[PhaseSearch, tuple[str, ...]]] = []
+
+    def searched(name, model, each, noise, build, how, progress, held):  # type: ignore[no-untyped-def]
+        ran.append((how, tuple(build(each, None).free)))
+        found = SimpleNamespace(solved=solves[min(len(ran), len(solves)) - 1], ending="", p=FEET)
+        return StandIn(name, found, SimpleNamespace(parameters=model.parameters))
+
+    monkeypatch.setattr(calibration, "calibrated_phase", searched)
+    monkeypatch.setattr(calibration, "selection_among", lambda one, whole: selection)
+    (one,) = calibrated_phases(trials(worn=False), search)
+    assert ran == runs and one.unselected == why
+    assert one.selection == (() if why else selection[0])
 
 
 def test_parameters_stand_as_the_model_has_them() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,14 +16,16 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.design.designs import read
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
 from geocontact.standing_up.assistance_design import NAMES
-from geocontact.standing_up.assisted_model import EVERY_ASSISTED, SHARE, assisted_model
+from geocontact.standing_up.assisted_model import EVERY_ASSISTED, SHARE, HabitSizes, assisted_model
 from geocontact.standing_up.assisted_movement import measures_of
 from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
+from geocontact.standing_up.help_search import design_numbers
 from geocontact.standing_up.strap_sites import STRAP_SITES
 from meshes.standing_study import SITES_PLANTED
 from tests.cli.calls import MESHES
 from tests.recording import opened
+from tests.unchecked import unchecked
 
 SESSION = MESHES / "standing_up_sites"
 SITES = tuple(replace(site, damping=7.0 + k, turning_damping=0.2 + 0.1 * k) for k, site in enumerate(STRAP_SITES))
@@ -51,6 +54,20 @@ def test_without_help_it_is_the_model_of_the_calibration(sites: tuple) -> None:
     np.testing.assert_allclose(found[0][1], found[1][1], rtol=1e-9)
     assert measures_of(helped) == ("strap", "knee", "energy", "shear", *(site.name for site in sites[1:]))
     assert p[SHARE] == 0.0 and NAMES[-1] == "pelvis strap place"
+
+
+@pytest.mark.parametrize("sites", [SITES[:1], SITES, (SITES[0], SITES[2])], ids=["thigh", "all", "pelvis"])
+def test_numbers_have_the_straps_that_are_there(sites: tuple) -> None:
+    """Every parameter of a present strap, none of an absent one, with the design's name before it."""
+    model = assisted_model(Subject(), sites=sites)
+    found = SimpleNamespace(p=np.zeros(len(model.standing.parameters)), motions=())
+    movement = SimpleNamespace(found=found, sizes=HabitSizes(), asked=SimpleNamespace(order=24, places=9))
+    with unchecked():
+        rows = design_numbers(model, [SimpleNamespace(name="chosen", movement=movement, design=None)], ())  # type: ignore[list-item]
+    named = {row.number for row in rows}
+    for site in SITES:
+        for name in site.names:
+            assert (f"chosen {name}" in named) == (site in sites), name
 
 
 @pytest.mark.parametrize(

@@ -82,6 +82,27 @@ def test_the_table_alone_moves_as_the_equations_do(unusual: None, worn: bool) ->
         np.testing.assert_allclose(chains.energies(), energy, rtol=1e-9)
 
 
+def test_masses_that_the_study_gives_are_not_called_invented() -> None:
+    """Foot plates and thigh were weighed, shank and module were not; with an identified device only its masses are."""
+    rows = {row.number: row for row in model_numbers(strapped(SUBJECT, STRAP_SITES))}
+    assert [(rows[f"body exo_{part} mass"].source) for part in ("shank", "thigh", "module")] == [
+        "invented",
+        "derived",
+        "invented",
+    ]
+    assert rows["body exo_thigh mass"].value == 4.7 and "as the study has it" in rows["body exo_thigh mass"].note
+    assert rows["body exo_thigh inertia"].source == "invented", "a uniform rod"
+    assert rows["body foot mass"].note.endswith("with foot plates, as the study has it")
+    shipped = {row.number: row for row in model_numbers(strapped(Subject(81.0, 1.69), STRAP_SITES))}
+    assert shipped["body foot mass"].note.endswith("with foot plates, which are invented")
+    assert shipped["body exo_thigh mass"].source == "invented"
+    alone = {row.number: row for row in model_numbers(feet_on_ground(SUBJECT))}
+    assert "foot plates" not in alone["body foot mass"].note
+    device = replace(SUBJECT.device, parts=SUBJECT.device.bodies((0.4, 0.4, 0.2)))
+    found = {row.number: row for row in model_numbers(strapped(replace(SUBJECT, device=device), STRAP_SITES))}
+    assert found["body exo_shank inertia"].source == "derived" and found["body exo_shank mass"].source == "invented"
+
+
 def test_sizes_and_beliefs_are_those_of_the_cost() -> None:
     """Jerk of 7 m/s³ and 8 rad/s³ counts as 1; the weight of the torques and what is believed of two lengths."""
     model, time = feet_on_ground(SUBJECT), np.linspace(0.0, 1.0, 41)

@@ -1,13 +1,25 @@
-"""Parameters that trials identify together: by closed forms, by all subsets, and on a shipped trial."""
+"""Parameters that trials identify together: by closed forms, all subsets, trials solved again, and shipped ones."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 import pytest
 
-from geocontact.standing_up.selection import LEAST, selected
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.dynamics.collocation.solve import SolverOptions, solve
+from geocontact.standing_up.calibrated_phase import PhaseSearch
+from geocontact.standing_up.calibration import calibrated_phases
+from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject, feet_on_ground
+from geocontact.standing_up.phase import RATE
+from geocontact.standing_up.phases import phase_a
+from geocontact.standing_up.selection import LEAST, selected, trials_information
+from geocontact.standing_up.trials import StandingNoise, recorded, standing_up
+from tests.cli.calls import MESHES
+from tests.recording import opened
 
 NAMES = ("a", "b", "c", "d")
 
@@ -56,3 +68,42 @@ def test_what_is_taken_is_identified_and_nothing_can_be_added(seed: int) -> None
 def test_trials_that_say_nothing_identify_nothing() -> None:
     rows = selected(NAMES, 0.1 * np.eye(4))
     assert all(row.outcome == "not identified" and row.turn == 0 for row in rows)
+
+
+@pytest.mark.slow
+def test_a_trial_s_information_is_the_curvature_of_its_cost() -> None:
+    """By solving again with every parameter held, one of them a little off: f'' of the cost, less the prior's."""
+    subject, noise, model = Subject(), StandingNoise(), feet_on_ground(Subject())
+    _, truth = standing_up(model, subject, intervals=25)
+    trial = recorded(model, truth.motions[0], truth.p, 100.0, noise, 34)
+    every, options = [each.name for each in FOOT_PARAMETERS], SolverOptions("radau", 4, 15, 1e-9)
+    phase = phase_a(model, subject, [trial], noise, free=every)
+    found = solve(phase.control, options)
+    assert found.solved
+    information = trials_information(phase, found)
+    for name in ("bottom", "stiffness"):
+        k = every.index(name)
+        step = 0.02 * FOOT_PARAMETERS[k].sd / np.sqrt(1.0 + information[k, k] / 100.0)
+        cost = []
+        for off in (-step, 0.0, step):
+            p = found.p + off * np.eye(len(every))[k]
+            held = replace(phase.control, p=(p, p), guess_p=p)
+            again = solve(held, options, warm=found)
+            assert again.solved
+            cost.append(again.objective)
+        curvature = (cost[0] - 2.0 * cost[1] + cost[2]) / step**2
+        wanted = 0.5 * RATE * curvature * FOOT_PARAMETERS[k].sd ** 2 - 1.0
+        assert information[k, k] == pytest.approx(wanted, rel=0.02), (name, information[k, k], wanted)
+
+
+@pytest.mark.slow
+@pytest.mark.long
+def test_the_shipped_trials_identify_six_of_seven() -> None:
+    """All but the radius, which is coupled with the stiffness."""
+    opened(Record("sit-to-stand calibrate", {}))
+    given = standing_trials(MESHES / "standing_up" / "study.toml", "study")
+    (one,) = calibrated_phases(given, PhaseSearch(SolverOptions("radau", 4, 1, 1e-7)))
+    taken = {row.name: row for row in one.selection}
+    assert len(taken) == 7 and sum(row.outcome == "identified" for row in taken.values()) == 6
+    assert (taken["radius"].outcome, taken["radius"].partner) == ("coupled", "stiffness")
+    assert taken["radius"].alone == pytest.approx(280.0, rel=0.05) and taken["radius"].beside < 0.1

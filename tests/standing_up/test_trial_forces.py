@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.standing_up.trial_forces import chair_load, seat_off, under_the_feet
+from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_off, steady, under_the_feet
 from geocontact.standing_up.trials import StandingTrial, with_chairs
 
 TIME = np.arange(0.0, 10.0, 0.01)
@@ -24,6 +24,17 @@ def test_the_chair_is_left_where_its_force_falls_for_good() -> None:
         seat_off(time, np.full(6, 4.9))
     with pytest.raises(InputError, match="its force is 20 N to the end; check that the plate was set to zero"):
         seat_off(time, np.full(6, 20.0))
+
+
+def test_the_running_median_keeps_falls_where_they_are() -> None:
+    """Equal to what falls or rises all along; by sorting eleven samples at a time; single samples are gone."""
+    fall = np.r_[300.0 * np.exp(-3.0 * TIME)]
+    np.testing.assert_array_equal(steady(TIME, fall)[5:-5], fall[5:-5])
+    rng = np.random.default_rng(7)
+    noise = np.abs(2.0 * rng.normal(size=len(TIME)))
+    wanted = [np.sort(noise[k - 5 : k + 6])[5] for k in range(5, len(TIME) - 5)]
+    np.testing.assert_allclose(steady(TIME, noise)[5:-5], wanted)
+    assert noise.max() > SEATED > steady(TIME, noise).max()
 
 
 def test_noise_of_a_chair_is_not_given_to_the_motion() -> None:

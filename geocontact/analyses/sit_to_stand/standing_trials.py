@@ -29,10 +29,10 @@ from geocontact.io.text.tables import read_table
 from geocontact.loads.friction_limit import friction_limit
 from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
-from geocontact.standing_up.movements import LEAST_RANGE, hip_height, movements_of
+from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_sites
-from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
+from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, steady, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
 
@@ -155,6 +155,8 @@ def channels_of(
         torque = joint_torques(
             files, subject.device, whole.time, whole.values[:, len(COORDINATES) :], used, noise.torque
         )
+    else:
+        _doubt_unused(files)
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         shear = site_shear(files.strap, time)
@@ -182,6 +184,13 @@ def channels_of(
         )
     )
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
+
+
+def _doubt_unused(files: StandingTrialFiles) -> None:
+    """A warning for what says of the exoskeleton's torques where torques are not tracked."""
+    for key in ("motors", "mode"):
+        if getattr(files, key) is not None:
+            reserve(f"{files.name}: {key} has no effect, as torque is not among tracks: add it, or leave {key} out")
 
 
 def _require_tracked(files: StandingTrialFiles, tracks: tuple[str, ...], study: Path, place: str) -> None:
@@ -288,7 +297,7 @@ def _plates(
 def _used(files: StandingTrialFiles, place: str, time: Times, height: Times, chair: ForcePlate | None) -> Used:
     """Samples of the trial: between its times, within its movement, and off the chair unless sitting belongs to it."""
     used = _within(files, time)
-    loaded = np.zeros(0) if chair is None else np.abs(chair.wrench.force @ chair.normal)
+    loaded = np.zeros(0) if chair is None else chair_force(chair)
     if files.movement is not None:
         seen = None if chair is None else np.interp(time, chair.time, loaded)
         used &= _movement(files, place, time, height, seen)
@@ -302,10 +311,15 @@ def _used(files: StandingTrialFiles, place: str, time: Times, height: Times, cha
     return used
 
 
+def chair_force(chair: ForcePlate) -> Times:
+    """Normal force on the chair at its own times, without a sign and without brief noise [N]."""
+    return steady(chair.time, np.abs(chair.wrench.force @ chair.normal))
+
+
 def _movement(files: StandingTrialFiles, place: str, time: Times, height: Times, chair: Times | None) -> Used:
     """When the movement of the recording is that the trial names."""
     try:
-        every = movements_of(time, height, chair)
+        every = movements_of(time, height, chair, squats=files.task == "squat")
     except ValueError as error:
         raise InputError(files.coordinates, "", str(error), "give a longer recording, or start and end") from error
     kinds = {files.task, {"standing up": "rising", "sitting down": "going down"}.get(files.task)}
@@ -316,7 +330,7 @@ def _movement(files: StandingTrialFiles, place: str, time: Times, height: Times,
         raise InputError(place, "movement", what, "run geocontact sit-to-stand movements to see them")
     one = found[wanted - 1]
     if not one.agrees:
-        reserve(f"{files.name}: the chair carries {one.before:.0f} N before and {one.after:.0f} N after {one.kind}")
+        reserve(f"{files.name}, {one.kind}: {contradiction(one)}")
     return np.asarray((time >= one.start) & (time <= one.end))
 
 

@@ -14,7 +14,7 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
-from geocontact.analyses.sit_to_stand.calibrate.phases import doubt_phase
+from geocontact.analyses.sit_to_stand.calibrate.phases import doubt_phase, say_selection
 from geocontact.analyses.sit_to_stand.calibrate.result import read, run
 from geocontact.io.opensim.storage_writer import write_moco_trajectory
 from geocontact.standing_up.calibrated_phase import Ended
@@ -206,6 +206,21 @@ def doubts(**other: object) -> tuple[list[str], list[str]]:
 )
 def test_what_changes_how_numbers_are_read_is_warned_of(other: dict[str, object], words: str) -> None:
     assert any(words in line for line in doubts(**other)[1])
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.InputWarning")
+@pytest.mark.parametrize(
+    ("why", "words"),
+    [
+        ("it is singular", "phase A: no parameters are selected: it is singular; the usual ones are free"),
+        ("", "phase A: its trials identify no parameter, so that the usual ones are free"),
+    ],
+)
+def test_why_nothing_was_selected_is_said(why: str, words: str) -> None:
+    record = opened(Record("sit-to-stand calibrate", {}))
+    with unchecked():
+        say_selection(SimpleNamespace(name="A", selection=(), unselected=why), True)  # type: ignore[arg-type]
+    assert list(record.warnings) == [words]
 
 
 def test_nothing_to_doubt_is_not_warned_of() -> None:

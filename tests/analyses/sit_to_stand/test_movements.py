@@ -113,6 +113,42 @@ def test_movements_that_are_not_there_are_refused(tmp_path: Path, keys: str, wor
         trial_of(tmp_path, keys)
 
 
+def test_a_squat_is_cut_where_no_chair_was_recorded(tmp_path: Path) -> None:
+    """The shipped rise from its end back and again: down and up at once."""
+    for kind, suffix in (("coordinates", "sto"), ("rates", "sto"), ("plates", "mot")):
+        table = read_table(SAMPLE / f"T1_{kind}.{suffix}")
+        up = np.column_stack([table.column(name) for name in table.channels])
+        still, way = (0.0 * up[0], -1.0) if kind == "rates" else (up[0], 1.0)
+        whole = np.vstack([way * up[::-1], still, up])
+        rows = np.column_stack([STEP * np.arange(len(whole)), whole])
+        _storage(tmp_path / f"{kind}.{suffix}", SAMPLE / f"T1_{kind}.{suffix}", rows)
+    found = gc.sit_to_stand.movements(tmp_path / "coordinates.sto")
+    down, up_again = found.movements
+    assert (down.kind, up_again.kind) == ("going down", "rising")
+    trials = found.trials_toml(tmp_path)
+    assert f'# With the next, it may be a squat: then task = "squat", end = {up_again.end:.6g} here.' in trials
+    head = (SAMPLE / "study.toml").read_text().split("\n[[trials]]")[0]
+    files = 'coordinates = "coordinates.sto"\nrates = "rates.sto"\nplates = "plates.mot"\nfeet = "feet_force"\n'
+    (tmp_path / "study.toml").write_text(f'{head}\n[[trials]]\n{files}task = "squat"\nmovement = 1\n')
+    opened(Record("sit-to-stand calibrate", {}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        (trial,) = standing_trials(tmp_path / "study.toml", "study").trials
+    assert trial.time[-1] == pytest.approx(up_again.end - down.start, abs=0.011)
+
+
+def test_one_sample_of_noise_moves_no_trial(tmp_path: Path) -> None:
+    """8 N on the empty chair, once, 1 s after seat-off: the trial of `movement` stays as it was."""
+    recording(tmp_path)
+    wanted = trial_of(tmp_path, "movement = 1")
+    file = tmp_path / "plates.mot"
+    table = read_table(file)
+    rows = np.column_stack([table.time, *(table.column(name) for name in table.channels)])
+    rows[130, 1 + list(table.channels).index("chair_force_vy")] = 8.0
+    _storage(file, SAMPLE / "T1_plates.mot", rows)
+    np.testing.assert_array_equal(trial_of(tmp_path, "movement = 1").q, wanted.q)
+
+
 def test_a_task_that_the_coordinates_contradict_is_warned_of(tmp_path: Path) -> None:
     recording(tmp_path)
     record = opened(Record("sit-to-stand calibrate", {}))

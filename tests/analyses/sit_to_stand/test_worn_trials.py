@@ -85,6 +85,13 @@ def test_a_passive_trial_needs_no_motors(tmp_path: Path, numbers: Path) -> None:
     np.testing.assert_array_equal(torque[:, :3], shipped.trials[0].torque[:, :3])  # type: ignore[index]
 
 
+def test_a_mode_without_torques_is_warned_of(tmp_path: Path) -> None:
+    tracks = 'tracks = ["coordinates", "rates", "force", "centre", "strap"]'
+    given, warned = read(study_of(tmp_path, 'mode = "passive"', tracks))
+    assert given.trials[0].torque is None
+    assert warned == ["T1: mode has no effect, as torque is not among tracks: add it, or leave mode out"]
+
+
 def test_motors_drive_the_hinges_less_friction(tmp_path: Path, numbers: Path) -> None:
     study = study_of(
         tmp_path,

@@ -153,7 +153,7 @@ def selection_table(phases: Sequence[CalibratedPhase]) -> pd.DataFrame:
 
 
 def say_selection(one: CalibratedPhase, asked: bool) -> None:
-    """Where the trials select otherwise than what is free, and that they were asked."""
+    """What was selected, or why nothing was."""
     chosen = {each.name for each in one.selection if each.outcome == "identified"}
     if asked and chosen:
         held = ", ".join(each.name for each in one.selection if each.name not in chosen)
@@ -161,6 +161,8 @@ def say_selection(one: CalibratedPhase, asked: bool) -> None:
             f"phase {one.name} frees what its trials identify together: {len(chosen)} of {len(one.selection)}"
             + (f", not {held}" if held else "")
         )
+    elif asked and one.unselected:
+        reserve(f"phase {one.name}: no parameters are selected: {one.unselected}; the usual ones are free")
     elif asked:
         reserve(f"phase {one.name}: its trials identify no parameter, so that the usual ones are free")
 

@@ -27,12 +27,20 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import motion_of_file, require_one_clock
+from geocontact.analyses.sit_to_stand.standing_trials import chair_force, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.movements import LEAST_RANGE, RecordedMovement, hip_height, movements_of
+from geocontact.standing_up.movements import (
+    LEAST_RANGE,
+    PAUSE,
+    RecordedMovement,
+    contacts_beside,
+    contradiction,
+    hip_height,
+    movements_of,
+)
 from geocontact.standing_up.trial_forces import SEATED
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Shade
 from geocontact.view.page.content import Section
@@ -44,10 +52,12 @@ if TYPE_CHECKING:
 TRIALS = "trials.toml"
 TASKS = {"rising": "standing up", "going down": "sitting down"}
 """What a movement is in a study where no chair says it."""
+SHOWN = 3
+"""Contacts beside all movements that are named."""
 MEANT = [
     "The height of the hip over the ankle follows from the angles of shank and thigh.",
     "A movement begins and ends where the hip's speed falls below a twentieth of its largest.",
-    f"Seat-off and seat contact: the force on the chair passes {SEATED:g} N.",
+    f"Seat-off and seat contact: the force on the chair, its running median, passes {SEATED:g} N.",
     "A warning names movements that the chair contradicts: its force stays after standing up, or was there before.",
 ]
 
@@ -74,8 +84,7 @@ def read(o: StandingMovementsOptions) -> StandingRecording:
     if o.feet is not None:
         plate_named(plates, o.feet, o.plates, "`feet`")
     require_one_clock(o.plates, plate, time)
-    force = np.abs(plate.wrench.force @ plate.normal)
-    return StandingRecording(time, height, np.interp(time, plate.time, force))
+    return StandingRecording(time, height, np.interp(time, plate.time, chair_force(plate)))
 
 
 def numbered(movements: Sequence[RecordedMovement]) -> list[tuple[str, RecordedMovement]]:
@@ -150,7 +159,8 @@ class StandingMovementsResult(Result):
     def trials_toml(self, folder: Path) -> str:
         """A [[trials]] for each movement, files as seen from a folder; rates, torques and straps are to be added."""
         o, blocks = self.options, ["# Movements of one recording; add rates, torques and straps of it.\n"]
-        for name, one in numbered(self.movements):
+        named = numbered(self.movements)
+        for (name, one), (_, then) in zip(named, [*named[1:], named[-1]], strict=True):
             task = TASKS.get(one.kind, one.kind)
             lines = ["[[trials]]", f'name = "{name.replace(" ", "_")}"', f'task = "{task}"']
             lines.append(f'coordinates = "{_from(folder, o.coordinates)}"')
@@ -159,6 +169,8 @@ class StandingMovementsResult(Result):
                 lines += [f'feet = "{o.feet}"'] if o.feet is not None else []
                 lines += [f'chair = "{o.chair}"'] if task != "squat" else []
             lines += [f"start = {one.start:.6g}", f"end = {one.end:.6g}"]
+            if (one.kind, then.kind) == ("going down", "rising") and then.start - one.end <= PAUSE:
+                lines.insert(0, f'# With the next, it may be a squat: then task = "squat", end = {then.end:.6g} here.')
             blocks.append("\n".join(lines) + "\n")
         return "\n".join(blocks)
 
@@ -185,9 +197,16 @@ def run(given: StandingRecording, o: StandingMovementsOptions) -> StandingMoveme
         say(f"{name}: {one.start:.2f} to {one.end:.2f} s{also}")
         if not one.agrees:
             reserve(
-                f"{name}: the chair carries {one.before:.0f} N before and {one.after:.0f} N after it, as in no "
-                "movement from seat to standing or back: check that this is the chair's plate, and its zero"
+                f"{name}: {contradiction(one)}, as in no movement from seat to standing or back: check that this is "
+                "the chair's plate, and its zero"
             )
+    beside = () if given.chair is None else contacts_beside(given.time, given.chair, found)
+    if beside:
+        times = ", ".join(f"{at:.2f}" for at in beside[:SHOWN]) + (" …" if len(beside) > SHOWN else "")
+        reserve(
+            f"the chair's force passes {SEATED:g} N at {times} s, beside all movements: check the clocks of chair and "
+            "coordinates, and that the hip's height is right"
+        )
     note("movements", {name: [one.start, one.end] for name, one in named})
     return StandingMovementsResult(options=o, given=given, movements=found)
 
