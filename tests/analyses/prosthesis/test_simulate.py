@@ -18,11 +18,11 @@ from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.result import (
     ProsthesisSimulateResult,
-    against_the_plate,
     beside_words,
     curves_table,
     errors_table,
     found_words,
+    goodness_of,
 )
 from geocontact.analyses.prosthesis.simulate.show import small_forces
 from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
@@ -227,7 +227,7 @@ def test_a_stance_that_fits_worse_than_a_constant_is_asked_about() -> None:
     errors = stance_errors(a_stance(own, walked(own)), plate_of(own))
     fits = dict.fromkeys(errors.table, (0.9, 0.1))
     errors = replace(errors, table=fits)
-    assert against_the_plate(errors).outcome == "fits"
+    assert goodness_of(errors).outcome == "fits"
     table = fits | {"cop_ground": (-31.28, 0.9), "fore_aft": (-1.0, 0.1)}
-    (doubt,) = against_the_plate(replace(errors, table=table)).doubts
+    (doubt,) = goodness_of(replace(errors, table=table)).doubts
     assert doubt.contradicts and doubt.what.startswith("centre of pressure: R² is -31.28, a constant would describe")

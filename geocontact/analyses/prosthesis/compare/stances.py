@@ -13,7 +13,6 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, band_of, simulated, walk_of
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
@@ -22,9 +21,11 @@ from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
     ANOTHER,
     MEAN,
+    OVER_STANCE,
     JudgedStance,
     Oddness,
     PlateStance,
+    Scoring,
     at_times,
     judged,
     reasons,
@@ -152,10 +153,9 @@ def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
         return error.what
 
 
-def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
+def judged_stance(one: StudiedStance, stance: Stance, scoring: Scoring = OVER_STANCE) -> JudgedStance:
     """A simulated stance beside its plate."""
     trial = one.trial
-    scoring = SCORES[one.asked.score]
     return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated, scoring=scoring)
 
 
