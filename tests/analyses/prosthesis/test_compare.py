@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,10 +14,15 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.prosthesis.compare import stances
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.compare.result import run
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, in_words
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.quantity_words import small_force
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band
+from tests.below_knee_prosthesis.stances import a_stance
+from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 from tests.cli.calls import MESHES
 from tests.recording import opened
 
@@ -142,6 +149,46 @@ def test_what_all_stances_are_warned_of_is_one_line(tmp_path: Path) -> None:
     assert [line for line in heard.warnings if "regression" in line] == [
         "all 2 stances: the hip's centre comes from a regression; a functional trial determines it better"
     ]
+
+
+def test_a_stance_whose_draws_fail_is_kept_without_a_band(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two the second has no band: in the table its columns are empty, and the mean is that of the first."""
+    own = np.arange(0.0, 0.95, 0.002)
+    found, plate = a_stance(own, walked(own)), plate_of(own)
+    band = marker_band(found, lambda rng: a_stance(own, (1.0 + 0.01 * rng.standard_normal()) * walked(own)), 3)
+
+    def drawn(recorded: str, *_: object) -> MarkerBand:
+        if recorded == "b":
+            raise gc.InputError("b.trc", "`walks`", "2 of 3 draws cannot be simulated", "")
+        return band
+
+    monkeypatch.setattr(stances, "simulated", lambda walk, asked: SimpleNamespace(stance=found, settled=True))
+    monkeypatch.setattr(stances, "band_of", drawn)
+    given: list[Any] = [
+        SimpleNamespace(
+            walk=None,
+            asked=None,
+            recorded=name,
+            plate=plate,
+            person=SimpleNamespace(side="right"),
+            trial=SimpleNamespace(name=name, person="P", foot="low", calibrated=False),
+        )
+        for name in "ab"
+    ]
+    assert [becoming.no_band for becoming in map(stances.simulated_stance, given)] == [  # type: ignore[union-attr]
+        "",
+        "2 of 3 draws cannot be simulated",
+    ]
+    heard = opened(Record("prosthesis compare", {}))
+    result = run(tuple(given), ProsthesisCompareOptions(Path("study.toml"), walks=12, workers=1))
+    assert [one.name for one in result.stances] == ["a", "b"] and list(result.bands) == ["a"]
+    assert [line for line in heard.warnings if "draws" in line] == ["b has no band: 2 of 3 draws cannot be simulated"]
+    table = result.table("trials").set_index("trial")
+    assert table.loc["b", list(stances.MOVED)].isna().all()
+    half = band.width("vertical", found.on)
+    assert half > 0.0 and table.loc["a", "vertical moved by markers [-]"] == pytest.approx(half)
+    (said,) = [line for line in result.sentences if line.startswith("errors of the markers")]
+    assert f"±{half:.1%} BW" in said
 
 
 def test_a_small_force_below_a_constant_is_judged_by_its_error() -> None:

@@ -38,6 +38,7 @@ from geocontact.analyses.prosthesis.compare.show import comparison_curves, compa
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
     LASTING,
+    MOVED,
     StudiedStance,
     ensembles_table,
     errors_table,
@@ -140,8 +141,6 @@ class ProsthesisCompareResult(Result):
 
 
 WORDS = {name: NAMES[name] for name in SAID}
-MOVED = ("moved by markers [-]", "within that [-]")
-"""Ends of the columns on errors of the markers."""
 PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
@@ -158,6 +157,8 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
                 reserve(f"{one.trial.name} is left out: {became}")
             else:
                 found[one.trial.name] = became.limb.stance
+                if became.no_band:
+                    reserve(f"{one.trial.name} has no band: {became.no_band}")
                 if became.band is not None:
                     bands[one.trial.name] = became.band
                 if not became.limb.settled:
@@ -232,7 +233,7 @@ def _say_lasting(stances: Sequence[JudgedStance], summary: pd.DataFrame) -> None
 def _say_moved(r: ProsthesisCompareResult) -> None:
     """How far errors of the markers move the stances, and how much of the plates is within that."""
     table = r.table("trials")
-    force, centre, within = (float(table[name].mean()) for name in table.columns if name.endswith(MOVED))
+    force, centre, within = (float(table[name].mean()) for name in MOVED)
     say(
         f"errors of the markers move the vertical force by ±{force:.1%} BW and the centre of pressure by "
         f"±{centre:.1%} of the foot (95 %, mean over the stances); the plates' force is within that for {within:.0%} "

@@ -54,10 +54,13 @@ class StudiedStance:
 
 @dataclass(frozen=True, eq=False)
 class SimulatedStance:
-    """A stance along the limb's motion, and how far errors of the markers move it; None without draws."""
+    """A stance along the limb's motion, and how far errors of the markers move it: None without draws, or where these
+    failed for that reason.
+    """
 
     limb: LimbInSocket
     band: MarkerBand | None
+    no_band: str = ""
 
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
@@ -148,9 +151,12 @@ def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
         limb = simulated(one.walk, one.asked)
         if not limb.stance.on.any():
             return "the foot never touches the floor"
-        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
     except InputError as error:
         return error.what
+    try:
+        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
+    except InputError as error:
+        return SimulatedStance(limb, None, error.what)
 
 
 def judged_stance(one: StudiedStance, stance: Stance, scoring: Scoring = OVER_STANCE) -> JudgedStance:
@@ -253,7 +259,7 @@ def trials_table(
                 "most ankle moment [N m/kg]": float(np.nanmax(model)),
                 "most ankle moment on the plate [N m/kg]": float(seen.max()),
                 "resultant rmse [-]": one.errors.table["resultant"][1],
-                **(moved_by_markers(one, bands[one.name]) if bands else {}),
+                **(moved_by_markers(one, bands.get(one.name)) if bands else {}),
                 "off by the study's rule [-]": own.by_study,
                 "off by the median [-]": own.by_median,
                 "outlier": own.outlier,
@@ -263,16 +269,21 @@ def trials_table(
     return pd.DataFrame(rows)
 
 
-def moved_by_markers(one: JudgedStance, band: MarkerBand) -> dict[str, float]:
-    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it."""
+MOVED = ("vertical moved by markers [-]", "centre moved by markers [-]", "plate within that [-]")
+"""Columns on errors of the markers."""
+
+
+def moved_by_markers(one: JudgedStance, band: MarkerBand | None) -> dict[str, float]:
+    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it; NaN
+    without a band.
+    """
+    if band is None:
+        return dict.fromkeys(MOVED, np.nan)
     s = one.stance
     weight = s.motion.leg.person.mass * GRAVITY
     seen = at_times(s.time, one.plate.time, one.plate.force)[:, 1] / weight
-    return {
-        "vertical moved by markers [-]": band.width("vertical", s.on),
-        "centre moved by markers [-]": band.width("cop_ground", s.on),
-        "plate within that [-]": band.inside("vertical", seen, s.on),
-    }
+    found = band.width("vertical", s.on), band.width("cop_ground", s.on), band.inside("vertical", seen, s.on)
+    return dict(zip(MOVED, found, strict=True))
 
 
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:
