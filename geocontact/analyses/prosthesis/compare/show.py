@@ -58,7 +58,8 @@ OVER = {
     ),
     True: (
         "Errors are scored as in the study: with a quarter of a second of swing on both sides, where both forces are "
-        "nothing, and centres of pressure low-passed at 6 Hz; over the stance alone they are larger."
+        "nothing, and centres of pressure low-passed at 6 Hz; over the stance alone, where the fit is tested, they are "
+        "larger."
     ),
 }
 """Over the stance alone, and as the study has it."""
