@@ -27,15 +27,35 @@ PlainCurves = Mapping[str, Mapping[str, Float[np.ndarray, " s"]]]
 
 
 def plain_curves(stances: Sequence[JudgedStance], name: str) -> dict[str, dict[str, Float[np.ndarray, " s"]]]:
-    """Curves of a quantity by both predictors without a model, by stance."""
-    plates = [MeasuredCurve(each.name, each.person, each.setting, each.measured(name)) for each in stances]
-    return {one.name: trivial_curves(plates, one) for one in plates}
+    """Curves of a quantity by both predictors without a model, by stance, each at that stance's own shares."""
+    found = {}
+    for one in stances:
+        plates = {
+            each.name: MeasuredCurve(each.name, each.person, each.setting, at_shares_of(one, each.measured(name), each))
+            for each in stances
+        }
+        found[one.name] = trivial_curves(list(plates.values()), plates[one.name])
+    return found
 
 
-def curves_of(plain: PlainCurves, own: Sequence[JudgedStance], label: str) -> list[Float[np.ndarray, " s"]]:
-    """Curves of one predictor for some stances; nothing where it has none of one of them."""
-    found = [plain[one.name].get(label) for one in own]
-    return [] if any(each is None for each in found) else [each for each in found if each is not None]
+def at_shares_of(axis: JudgedStance, values: Float[np.ndarray, " s"], of: JudgedStance) -> Float[np.ndarray, " s"]:
+    """A curve `of` one stance at the shares of another: share by share within the stance, second by second around it.
+
+    Swing is as long in seconds for all, so that the same place in the curves of two stances is not the same share.
+    """
+    share, longer = axis.errors.share, axis.errors.stance[1] / of.errors.stance[1]
+    inside = np.clip(share, 0.0, 1.0)
+    return np.interp(inside + longer * (share - inside), of.errors.share, values)
+
+
+def curves_of(
+    plain: PlainCurves, own: Sequence[JudgedStance], label: str, axis: JudgedStance
+) -> list[Float[np.ndarray, " s"]]:
+    """Curves of one predictor for some stances, at the shares of one; nothing where it has none of one of them."""
+    found = [(one, plain[one.name].get(label)) for one in own]
+    if any(each is None for _, each in found):
+        return []
+    return [at_shares_of(axis, each, one) for one, each in found if each is not None]
 
 
 def by_setting(stances: Sequence[JudgedStance]) -> dict[str, list[JudgedStance]]:
@@ -93,7 +113,7 @@ def against_predictors(stances: Sequence[JudgedStance]) -> Iterator[QuantityErro
 
 @dataclass(frozen=True, eq=False)
 class Ensemble:
-    """Mean and standard deviation of a quantity over some stances, at even shares of the stance on the plate.
+    """Mean and standard deviation of a quantity over some stances, at the shares of the first of them.
 
     `label` is the quantity, the quantity and "measured", or the quantity and a predictor.
     """
@@ -118,9 +138,9 @@ def ensembles(stances: Sequence[JudgedStance]) -> dict[str, list[Ensemble]]:
 
 def _ensembles(own: Sequence[JudgedStance], name: str, plain: PlainCurves) -> Iterator[Ensemble]:
     for label, curves in (
-        (name, [one.simulated(name) for one in own]),
-        (f"{name} measured", [one.measured(name) for one in own]),
-        *((f"{name} {label}", curves_of(plain, own, label)) for label in PLAIN),
+        (name, [at_shares_of(own[0], one.simulated(name), one) for one in own]),
+        (f"{name} measured", [at_shares_of(own[0], one.measured(name), one) for one in own]),
+        *((f"{name} {label}", curves_of(plain, own, label, own[0])) for label in PLAIN),
     ):
         if curves:
             yield Ensemble(name, label, np.mean(curves, axis=0), np.std(curves, axis=0))

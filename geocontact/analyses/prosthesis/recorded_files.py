@@ -15,7 +15,7 @@ from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.prosthesis.ranges import LIMB, pair_of
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
-from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
+from geocontact.below_knee_prosthesis.from_markers import as_right, mirrored_name, of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
@@ -132,15 +132,16 @@ def refuse_gaps(plate: ForcePlate, file: Path) -> None:
             raise InputError(file, plate.name, what, "fill the gap, or leave that step out with `time`")
 
 
-def residual_of(standing: MarkerTrajectories, length: float | None, markers: str | None) -> float | None:
+def residual_of(standing: MarkerTrajectories, length: float | None, markers: str | None, side: Side) -> float | None:
     """Length of the residual limb [m]: the one that is given, or the distance of two markers while standing.
 
-    None where neither is; InputError for markers that are not there or so far apart as no limb is.
+    None where neither is; InputError for markers that are not there or so far apart as no limb is. `standing` is as of
+    a right prosthesis, the names of the markers are those of the person's own side.
     """
     if markers is None:
         return length
-    names = pair_of(markers)
-    missing = [name for name in names if name not in standing.names]
+    names = {name if side == "right" else mirrored_name(name): name for name in pair_of(markers)}
+    missing = [own for name, own in names.items() if name not in standing.names]
     if missing:
         what = f"no marker {', '.join(missing)} in the standing trial"
         raise InputError(standing.source, "`residual_markers`", what, "name two of its markers")

@@ -12,7 +12,14 @@ from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tre
 from geocontact.below_knee_prosthesis.both_sides.standing_model import model_poses
 from geocontact.below_knee_prosthesis.both_sides.walk import GivenWalk, WholeMotion, coordinate_names
 from geocontact.below_knee_prosthesis.evaluation import CUTOFF as FORCE_CUTOFF
-from geocontact.below_knee_prosthesis.evaluation import SAMPLES, SLOWEST, PlateStance, at_times, longest_stance
+from geocontact.below_knee_prosthesis.evaluation import (
+    SAMPLES,
+    SLOWEST,
+    PlateStance,
+    at_times,
+    longest_stance,
+    simulated_at,
+)
 from geocontact.below_knee_prosthesis.from_markers import MAP
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import GATE
@@ -126,6 +133,24 @@ def force_errors(
     return {name: agreement(model, measured, float(at[1] - at[0])) for name, (model, measured) in curves.items()}
 
 
+def load_errors(
+    time: Float[np.ndarray, " t"], wrench: Float[np.ndarray, "t 6"], plate: PlateStance, mass: float
+) -> dict[str, Agreement]:
+    """`force_errors` of a load, force and moment about the ground's origin [N, N m], and of its centre of pressure
+    along the walk and across it [m], where both are known.
+    """
+    found = force_errors(time, wrench[:, :3], plate, mass)
+    span = longest_stance(plate.time, plate.force[:, 1])
+    if span is None:
+        return found
+    at = np.linspace(*span, SAMPLES)
+    own, seen = simulated_at(at, time, centre_on_floor(wrench)), at_times(at, plate.time, plate.centre)
+    centres = {name: agreement(own[:, k], seen[:, k], float(at[1] - at[0])) for name, k in CENTRES.items()}
+    return found | centres
+
+
+CENTRES = {"cop_x": 0, "cop_z": 2}
+"""Component of a centre of pressure by name."""
 HELD_TURN, HELD_FORCE = 0.5, 0.02
 """deg, and body weights: within these a walk by forces still is that by angles."""
 AFTER, SMALL, FEW = 0.06, 5.0, 5

@@ -11,7 +11,6 @@ from jaxtyping import Float
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration
 from geocontact.below_knee_prosthesis.calibration.known_numbers import KnownNumber
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
-from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.data.parameter import Parameter
 from geocontact.identify.goodness_of_fit import FAR as TOO_LARGE
@@ -123,9 +122,9 @@ def goodness_of(found: SoleCalibration | WholeCalibration, fitted: Sequence[Fitt
         Stances in the order of the calibration.
     """
     doubts = list[Doubt]()
-    parts = _channels(found, fitted[0].stance)
+    parts = residuals_by_channel(found)
     for place, each in enumerate(fitted):
-        channels = dict(zip(CHANNEL_WORDS, parts[place], strict=False))
+        channels = dict(zip(CHANNEL_WORDS, parts[place][: len(CHANNEL_WORDS)], strict=True))
         residual = float(np.sqrt(np.mean(np.concatenate(parts[place]) ** 2)))
         own = [*_doubts_of_stance(found, each, place, residual), *_doubts_of_channels(channels)]
         doubts += [replace(one, what=f"{each.name}: {one.what}") if each.name else one for one in own]
@@ -152,6 +151,8 @@ def _doubts_of_channels(parts: Mapping[str, Float[np.ndarray, " _"]]) -> list[Do
     """Channels whose residuals are larger than plate and poses leave."""
     doubts = []
     for name, residual in parts.items():
+        if not len(residual):
+            continue
         test = residual_test(residual, 1.0)
         if test.excess > SURE and test.ratio > LARGER:
             what = f"{name}: the residual is {test.ratio:.3g} times what plate and poses leave"
@@ -170,14 +171,15 @@ CHANNEL_WORDS = ("fore-aft force", "vertical force", "sideways force", "centre o
 """What a plate measures, in words, in the order of `CHANNELS`."""
 
 
-def _channels(found: SoleCalibration | WholeCalibration, first: RecordedStance) -> list[list[Float[np.ndarray, " _"]]]:
-    """Residuals over their noise, by stance and channel: those of `CHANNEL_WORDS`, then of the slip."""
-    time, order = found.residuals.channel_by_channel()
-    ends = np.flatnonzero(np.diff(time) > PAUSE * float(np.ptp(first.time)) / 4.0) + 1
-    parts = np.split(found.residuals.of_data(found.at)[order], ends)
-    count = len(found.residuals.standing)
-    each = len(parts) // count
-    return [parts[each * k : each * (k + 1)] for k in range(count)]
+def residuals_by_channel(found: SoleCalibration | WholeCalibration) -> list[list[Float[np.ndarray, " _"]]]:
+    """Residuals over their noise, by stance and channel: those of `CHANNEL_WORDS`, then of the slip; a channel that
+    holds nothing is empty.
+    """
+    residuals = found.residuals
+    _, order = residuals.channel_by_channel()
+    counts = [np.isfinite(residuals.measured(k)).sum(axis=0) for k in range(len(residuals.standing))]
+    parts = iter(np.split(residuals.of_data(found.at)[order], np.cumsum(np.concatenate(counts))[:-1]))
+    return [[next(parts) for _ in own] for own in counts]
 
 
 def doubts_of_fit(height: float, pitch: float, residual: float, vertical: float) -> list[Doubt]:

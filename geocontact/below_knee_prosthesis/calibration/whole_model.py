@@ -332,6 +332,10 @@ class WholeResiduals:
         """Derivatives of `__call__`."""
         return np.vstack([self.slope_of_data(z), np.diag(1.0 / self.sd[: len(z)])])
 
+    def measured(self, place: int) -> Float[np.ndarray, "t c"]:
+        """Channels of one stance."""
+        return self.wholes[place].stance.recorded.measured
+
     def channel_by_channel(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Times of the data's residuals in that order [s], a pause after each channel, and the residuals' places."""
         recorded = [each.stance.recorded for each in self.wholes]

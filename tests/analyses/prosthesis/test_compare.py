@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,10 +14,15 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.prosthesis.compare import stances
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
+from geocontact.analyses.prosthesis.compare.result import run
 from geocontact.analyses.prosthesis.compare.show import comparison_curves, in_words
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
 from geocontact.analyses.prosthesis.quantity_words import small_force
+from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band
+from tests.below_knee_prosthesis.stances import a_stance
+from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 from tests.cli.calls import MESHES
 from tests.recording import opened
 
@@ -142,6 +149,68 @@ def test_what_all_stances_are_warned_of_is_one_line(tmp_path: Path) -> None:
     assert [line for line in heard.warnings if "regression" in line] == [
         "all 2 stances: the hip's centre comes from a regression; a functional trial determines it better"
     ]
+
+
+OWN = np.arange(0.0, 0.95, 0.002)
+
+
+def studied(name: str, setting: str, lasting: float = 0.7) -> Any:
+    """A stance of a study whose simulation is made up: the plate's force over another time [s]."""
+    stance = a_stance(OWN, walked(0.1 + (OWN - 0.1) * 0.7 / lasting))
+    trial = SimpleNamespace(name=name, person="P", foot=setting, calibrated=False)
+    person = SimpleNamespace(side="right")
+    return SimpleNamespace(walk=stance, asked=None, recorded=name, plate=plate_of(OWN), person=person, trial=trial)
+
+
+@pytest.fixture
+def made_up(monkeypatch: pytest.MonkeyPatch) -> MarkerBand:
+    """Stances as they are, and draws that fail of the one called b; the band of the others."""
+    band = marker_band(
+        a_stance(OWN, walked(OWN)), lambda rng: a_stance(OWN, (1.0 + 0.01 * rng.standard_normal()) * walked(OWN)), 3
+    )
+
+    def drawn(recorded: str, _: object, asked: object) -> MarkerBand | None:
+        if recorded == "b":
+            raise gc.InputError("b.trc", "`walks`", "7 of 12 draws cannot be simulated", "")
+        return band
+
+    monkeypatch.setattr(stances, "simulated", lambda walk, asked: SimpleNamespace(stance=walk, settled=True))
+    monkeypatch.setattr(stances, "band_of", drawn)
+    return band
+
+
+def test_a_stance_whose_draws_fail_is_kept_without_a_band(made_up: MarkerBand) -> None:
+    """Of two the second has no band: in the table its columns are empty, and the mean is that of the first."""
+    given = (studied("a", "low"), studied("b", "low"))
+    heard = opened(Record("prosthesis compare", {}))
+    result = run(given, ProsthesisCompareOptions(Path("study.toml"), walks=12, workers=1))
+    assert [one.name for one in result.stances] == ["a", "b"] and list(result.bands) == ["a"]
+    assert [line for line in heard.warnings if "draws" in line] == ["b has no band: 7 of 12 draws cannot be simulated"]
+    table = result.table("trials").set_index("trial")
+    assert table.loc["b", list(stances.MOVED)].isna().all()
+    on = result.stances[0].stance.on
+    half = made_up.width("vertical", on)
+    assert half > 0.0 and table.loc["a", "vertical moved by markers [-]"] == pytest.approx(half)
+    (said,) = [line for line in result.sentences if line.startswith("errors of the markers")]
+    assert f"±{half:.1%} BW" in said and said.endswith("within that for 100% of the stance")
+
+
+@pytest.mark.usefixtures("made_up")
+def test_the_length_of_stances_is_said_by_setting() -> None:
+    """20 ms longer at low, 10 and 20 ms shorter at high: mean -3 ms."""
+    given = tuple(
+        studied(f"{setting} {late}", setting, 0.7 + late)
+        for setting, late in (("low", 0.02), ("high", -0.01), ("high", -0.02))
+    )
+    opened(Record("prosthesis compare", {}))
+    result = run(given, ProsthesisCompareOptions(Path("study.toml"), workers=1))
+    summary = result.table("summary").set_index(["quantity", "setting"])["difference"]
+    for setting, late in (("low", 0.02), ("high", -0.015), ("all", -0.01 / 3.0)):
+        assert summary["stance", setting] == pytest.approx(late, abs=1e-3), setting
+    (said,) = [line for line in result.sentences if line.startswith("stance longer")]
+    mean, low, high = (1e3 * summary["stance", setting] for setting in ("all", "low", "high"))
+    assert said.startswith(f"stance longer than on the plate by {mean:+.0f} ms (SD 17 ms)")
+    assert said.endswith(f"; low {low:+.0f}, high {high:+.0f} ms")
 
 
 def test_a_small_force_below_a_constant_is_judged_by_its_error() -> None:

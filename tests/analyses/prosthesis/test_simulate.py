@@ -18,11 +18,11 @@ from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.result import (
     ProsthesisSimulateResult,
-    against_the_plate,
     beside_words,
     curves_table,
     errors_table,
     found_words,
+    goodness_of,
 )
 from geocontact.analyses.prosthesis.simulate.show import small_forces
 from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
@@ -197,6 +197,37 @@ def test_a_whole_stance_has_its_length() -> None:
     assert beside_words(stance_errors(found, plate_of(own))).endswith("stance as long as measured")
 
 
+@pytest.mark.slow
+def test_draws_of_the_markers_and_standing_still_are_said_and_written(tmp_path: Path) -> None:
+    """By hand from the tables: how much of the plate's force is within the band, and what the foot misses."""
+    given = GIVEN | {"walks": 4, "marker_error": gc.mm(0.5), "socket_turns": 0, "stand_still": True}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        result = gc.prosthesis.simulate(TRIAL / "walking.trc", **given)
+    band, stance = result.table("band"), result.table("stance")
+    assert result.band is not None and result.band.drawn + result.band.lost == 4
+    np.testing.assert_array_equal(band["time [s]"], stance["time [s]"])
+    weight, on = 77.3 * 9.80665, result.stance.on != 0.0
+    np.testing.assert_allclose(band["vertical [BW]"], stance["force_y [N]"] / weight, atol=1e-12)
+    half = 0.5 * (band["vertical upper [BW]"] - band["vertical lower [BW]"])
+    wide = np.sqrt(np.mean(half[on & np.isfinite(half)] ** 2))
+    assert 0.0 < wide < 0.5
+    plate = result.walk.plate
+    assert plate is not None
+    seen = np.interp(stance["time [s]"], plate.time, plate.force[:, 1]) / weight
+    inside = (np.abs(seen - band["vertical [BW]"]) <= half)[on & np.isfinite(half)].mean()
+    (said,) = [line for line in result.sentences if line.startswith("errors of the markers (SD 0.5 mm")]
+    assert f"±{wide:.1%} BW" in said and said.endswith(f"is within that for {inside:.0%} of the stance")
+    assert result.still is not None
+    missing = float(result.still.stance.force[-1, 1]) / weight - 0.5
+    assert abs(missing) < 0.05 and result.still.stance.time[-1] == 10.0
+    (said,) = [line for line in result.sentences if line.startswith("standing still for 10 s")]
+    assert f"carries {missing:+.2%} BW" in said
+    assert any("standing still" in line for line in result.warnings) == (abs(missing) > 1e-3)
+    result.write(tmp_path / "out")
+    assert (tmp_path / "out" / "band.csv").is_file()
+
+
 def test_numbers_of_the_page_have_units_and_no_rounding_errors() -> None:
     names = ["leg ankle_x", "sole exponent", "sole heel_stiffness"]
     numbers = pd.DataFrame({"number": names, "value": [3.469e-18, 1.5, 2.0]})
@@ -227,7 +258,7 @@ def test_a_stance_that_fits_worse_than_a_constant_is_asked_about() -> None:
     errors = stance_errors(a_stance(own, walked(own)), plate_of(own))
     fits = dict.fromkeys(errors.table, (0.9, 0.1))
     errors = replace(errors, table=fits)
-    assert against_the_plate(errors).outcome == "fits"
+    assert goodness_of(errors).outcome == "fits"
     table = fits | {"cop_ground": (-31.28, 0.9), "fore_aft": (-1.0, 0.1)}
-    (doubt,) = against_the_plate(replace(errors, table=table)).doubts
+    (doubt,) = goodness_of(replace(errors, table=table)).doubts
     assert doubt.contradicts and doubt.what.startswith("centre of pressure: R² is -31.28, a constant would describe")

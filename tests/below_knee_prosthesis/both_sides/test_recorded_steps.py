@@ -9,10 +9,11 @@ import pytest
 
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
-from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_work, metabolic_proxy
+from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_moments, joint_work, metabolic_proxy
 from geocontact.below_knee_prosthesis.both_sides.recorded_steps import (
     centre_on_floor,
     force_errors,
+    load_errors,
     played_back,
     recorded_steps,
     single_support,
@@ -113,10 +114,35 @@ def test_work_of_a_joint_by_hand() -> None:
     wave = np.sin(2.0 * np.pi * time)
     rates = np.column_stack([wave, 2.0 * wave, 2.0 * wave, wave])
     forces = np.column_stack([wave, 10.0 * wave, -10.0 * wave, wave])
-    found = joint_work(time, ("pelvis_tilt", "hip_flexion_r", "knee_flexion_l", "keel_1_r"), rates, forces)
-    assert list(found) == ["hip_flexion_r", "knee_flexion_l"]
+    names = ("pelvis_tilt", "hip_flexion_r", "knee_flexion_l", "keel_1_r")
+    moments, found = joint_moments(time, names, forces), joint_work(time, names, rates, forces)
+    assert list(moments) == ["hip_flexion_r", "knee_flexion_l"] and list(found) == ["hip_r", "knee_l"]
     hip, knee = found.values()
-    assert (hip.peak, hip.mean) == pytest.approx((10.0, 20.0 / np.pi), rel=1e-6)
+    flexion = moments["hip_flexion_r"]
+    assert (flexion.peak, flexion.mean) == pytest.approx((10.0, 20.0 / np.pi), rel=1e-6)
     assert (hip.positive, hip.negative) == pytest.approx((10.0, 0.0), abs=1e-6)
     assert (knee.positive, knee.negative) == pytest.approx((0.0, 10.0), abs=1e-6)
     assert metabolic_proxy(found) == pytest.approx(10.0 / 0.25 + 10.0 / 1.2, rel=1e-6)
+
+
+def test_work_of_a_joint_is_that_of_its_coordinates_together() -> None:
+    """One hip gains 50 W in flexion and loses 40 W in adduction for 0.1 s: 1 J, which costs 4 J; apart 23.3 J."""
+    time = np.linspace(0.0, 0.1, 11)
+    names = ("hip_flexion_r", "hip_adduction_r", "hip_flexion_l")
+    rates, forces = np.ones((11, 3)), np.ones((11, 1)) * np.array([50.0, -40.0, 0.0])
+    found = joint_work(time, names, rates, forces)
+    assert found["hip_r"].positive == pytest.approx(1.0) and found["hip_r"].negative == 0.0
+    assert metabolic_proxy(found) == pytest.approx(4.0)
+
+
+def test_a_centre_of_pressure_is_compared_where_both_are_known() -> None:
+    """A load at x = 0.1 + 0.3 t beside a plate that has it 5 mm further and 2 mm aside: the differences, in metres."""
+    up = 700.0 * np.sin(np.pi * np.clip((TIME - TIME[0]) / np.ptp(TIME), 0.0, 1.0))
+    force = up[:, None] * np.array([0.0, 1.0, 0.0])
+    centre = np.column_stack([0.1 + 0.3 * TIME, 0.0 * TIME, 0.05 + 0.0 * TIME])
+    seen = np.where(up[:, None] > 100.0, centre + np.array([0.005, 0.0, -0.002]), np.nan)
+    plate = PlateStance(TIME, force, seen)
+    found = load_errors(TIME, np.hstack([force, np.cross(centre, force)]), plate, MASS)
+    assert found["cop_x"].rmsd == pytest.approx(0.005, rel=1e-6)
+    assert found["cop_z"].rmsd == pytest.approx(0.002, rel=1e-6)
+    assert found["vertical"].rmsd == pytest.approx(0.0, abs=1e-9) and found["cop_x"].samples < 101

@@ -96,10 +96,13 @@ def test_momentum_is_what_the_forces_leave(truth: Amputee, given: GivenWalk, lan
     speed = np.gradient(centre, landing.time, axis=0, edge_order=2)
     push = recorded_inputs(given.time, given.ground).at(landing.time)[:, :3]
     acting = landing.force + push - np.array([0.0, WEIGHT, 0.0])
+    ground = recorded_inputs(given.time, given.ground).at(landing.time)
+    forces = driving_forces(truth, landing, accelerations_by_angles(truth, given, landing), ground)
+    acting[:, 2] += forces[:, landing.names.index("pelvis_tz")]  # a residual: where the pelvis is sideways is given
     gained = model.mass * (speed - speed[0])
     made = cumulative_trapezoid(acting, landing.time, axis=0, initial=0.0)
     assert landing.force[:, 1].max() > 0.5 * WEIGHT
-    np.testing.assert_allclose(gained[5:-5, :2], made[5:-5, :2], atol=0.5)  # of some tens of N s
+    np.testing.assert_allclose(gained[5:-5], made[5:-5], atol=0.5)  # of some tens of N s
 
 
 @pytest.mark.slow

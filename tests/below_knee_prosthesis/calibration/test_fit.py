@@ -13,6 +13,7 @@ from geocontact.below_knee_prosthesis.calibration.fit import (
     fore_aft_error,
     known_of,
     residual_over_noise,
+    residuals_by_channel,
     stance_fit,
 )
 from geocontact.below_knee_prosthesis.calibration.known_numbers import knowledge
@@ -45,6 +46,29 @@ def test_a_fit_is_what_the_residuals_are_made_of() -> None:
     assert residual_over_noise(usual) == pytest.approx(np.sqrt(np.mean(residuals.of_data(z) ** 2)), rel=1e-12)
     assert np.abs(found.slip).max() > 0.0 and not found.sunk
     assert [each.name for each in known_of(usual)][-2:] == ["foot.height", "foot.pitch"]
+
+
+def test_residuals_are_those_of_their_own_channel() -> None:
+    """Two stances, the second of a fifth of the first's time and without a centre: by their places, one by one."""
+    whole, one = recorded(), usual_calibration()
+    names = ("time", "poses", "rate", "force", "centre")
+    long, short = (
+        replace(whole, **{name: getattr(whole, name)[on] for name in names}) for on in (slice(20, 40), slice(24, 28))
+    )
+    short = replace(short, centre=np.full_like(short.centre, np.nan))
+    residuals = SoleResiduals.of([long, short], vsf_foot())
+    z = np.zeros(len(residuals.sd))
+    parts = residuals_by_channel(replace(one, residuals=residuals, at=z))
+    assert [len(own) for own in parts] == [6, 6]
+    assert [len(each) for each in parts[1]] == [4, 4, 4, 0, 4, 4]
+    off, start = residuals.of_data(z), 0
+    for place, own in enumerate(parts):
+        there = np.isfinite(residuals.measured(place))
+        table = np.full(there.shape, np.nan)
+        table[there] = off[start : start + there.sum()]
+        start += int(there.sum())
+        for column, found in zip(table.T, own, strict=True):
+            np.testing.assert_array_equal(found, column[np.isfinite(column)])
 
 
 @pytest.mark.parametrize(

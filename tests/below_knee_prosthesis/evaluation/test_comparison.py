@@ -17,7 +17,17 @@ from geocontact.below_knee_prosthesis.comparison import (
     odd_stances,
     plain_curves,
 )
-from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, QUANTITIES, JudgedStance, judged
+from geocontact.below_knee_prosthesis.evaluation import (
+    ANOTHER,
+    AS_STUDY,
+    MEAN,
+    OVER_STANCE,
+    QUANTITIES,
+    JudgedStance,
+    PlateStance,
+    Scoring,
+    judged,
+)
 from tests.below_knee_prosthesis.stances import a_stance
 from tests.below_knee_prosthesis.test_stance_errors import plate_of, walked
 
@@ -44,9 +54,9 @@ def test_predictors_know_the_other_trials_only(study: list[JudgedStance]) -> Non
     _, b, c = (one.measured("vertical") for one in study)
     np.testing.assert_allclose(plain["a"][MEAN], 0.5 * (b + c), rtol=1e-12)
     np.testing.assert_allclose(plain["a"][ANOTHER], c, rtol=1e-12)
-    assert len(curves_of(plain, study, MEAN)) == 3
+    assert len(curves_of(plain, study, MEAN, study[0])) == 3
     alone = plain_curves(study[:2], "vertical")
-    assert curves_of(alone, study[:2], ANOTHER) == []  # nobody walked on another setting
+    assert curves_of(alone, study[:2], ANOTHER, study[0]) == []  # nobody walked on another setting
 
 
 def test_the_model_is_better_where_it_is_nearer_than_every_predictor(study: list[JudgedStance]) -> None:
@@ -89,3 +99,31 @@ def test_ensembles_are_means_over_a_setting(study: list[JudgedStance]) -> None:
     np.testing.assert_allclose(low["vertical"].sd, 0.5 * np.abs(own[0] - own[1]), rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(low["vertical measured"].mean, seen[0], atol=1e-12)
     assert low["vertical another setting"].quantity == "vertical"
+
+
+def of_length(name: str, lasting: float, scoring: Scoring) -> JudgedStance:
+    """A stance of one shape over its own length from 0.3 s on, half a wave squared, simulated as on the plate."""
+    time = np.arange(0.0, 1.6, 0.002)
+    share = (time - 0.3) / lasting
+    up = 800.0 * np.sin(np.pi * np.clip(share, 0.0, 1.0)) ** 2
+    force = up[:, None] * np.array([0.1, 1.0, 0.05])
+    centre = np.where(up[:, None] > 20.0, np.column_stack([0.2 * share, 0.0 * time, 0.0 * time]), np.nan)
+    return judged(name, "P", "low", a_stance(time, force), PlateStance(time, force, centre), scoring=scoring)
+
+
+@pytest.mark.parametrize("scoring", [OVER_STANCE, AS_STUDY])
+def test_stances_of_one_shape_and_other_lengths_are_one_curve(scoring: Scoring) -> None:
+    """3 to 9.5 % of body weight off where curves with as much swing on both sides met sample by sample."""
+    same = [of_length(f"{lasting:g}", lasting, scoring) for lasting in (0.60, 0.64, 0.68, 0.72)]
+    for each in against_predictors(same):
+        if each.quantity in ("resultant", "vertical"):
+            assert each.plain[MEAN].rmsd < 2e-3, each.stance.name
+    for one in ensembles(same)["low"]:
+        if one.label.startswith("vertical"):
+            assert one.sd.max() < 5e-3, one.label
+    gate = np.arcsin(np.sqrt(20.0 / 800.0)) / np.pi  # where 20 N begin
+    at = np.clip(gate + (1.0 - 2.0 * gate) * same[0].errors.share, 0.0, 1.0)
+    (mean,) = (one.mean for one in ensembles(same)["low"] if one.label == "vertical measured")
+    np.testing.assert_allclose(mean, 800.0 / (77.3 * 9.80665) * np.sin(np.pi * at) ** 2, atol=0.02)
+    drawn = {each.name: each for each in comparison_curves(same).panels[0].curves}
+    np.testing.assert_allclose(drawn["plate"].values, mean, rtol=1e-12, atol=1e-12)

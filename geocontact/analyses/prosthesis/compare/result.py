@@ -38,6 +38,7 @@ from geocontact.analyses.prosthesis.compare.show import comparison_curves, compa
 from geocontact.analyses.prosthesis.compare.stances import (
     ALL,
     LASTING,
+    MOVED,
     StudiedStance,
     ensembles_table,
     errors_table,
@@ -48,6 +49,7 @@ from geocontact.analyses.prosthesis.compare.stances import (
     trials_table,
 )
 from geocontact.analyses.prosthesis.quantity_words import ASKED, NAMES, SAID, small_force
+from geocontact.analyses.prosthesis.scores import OVER, SCORES
 from geocontact.analyses.prosthesis.stance_files import (
     counted_twice,
     numbers_table,
@@ -139,8 +141,6 @@ class ProsthesisCompareResult(Result):
 
 
 WORDS = {name: NAMES[name] for name in SAID}
-MOVED = ("moved by markers [-]", "within that [-]")
-"""Ends of the columns on errors of the markers."""
 PLAIN = ("mean of the others rmse", "another rmse")
 """Columns of both predictors without a model."""
 
@@ -157,6 +157,8 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
                 reserve(f"{one.trial.name} is left out: {became}")
             else:
                 found[one.trial.name] = became.limb.stance
+                if became.no_band:
+                    reserve(f"{one.trial.name} has no band: {became.no_band}")
                 if became.band is not None:
                     bands[one.trial.name] = became.band
                 if not became.limb.settled:
@@ -164,7 +166,9 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
             step()
     if not found:
         raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
-    stances = tuple(judged_stance(one, found[one.trial.name]) for one in given if one.trial.name in found)
+    known = [(one, found[one.trial.name]) for one in given if one.trial.name in found]
+    judge(against_the_plates(known, OVER[o.score]))
+    stances = tuple(judged_stance(*pair, SCORES[o.score]) for pair in known)
     result = ProsthesisCompareResult(
         options=o,
         stances=stances,
@@ -179,7 +183,6 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
 def _summarise(r: ProsthesisCompareResult) -> None:
     """Sentences, reservations and results of a comparison."""
     stances = r.stances
-    judge(goodness_of(stances))
     fitted = [one.name for one in stances if one.calibrated]
     transfer = len(stances) - len(fitted)
     persons, settings = (len({getattr(one, key) for one in stances}) for key in ("person", "setting"))
@@ -230,7 +233,7 @@ def _say_lasting(stances: Sequence[JudgedStance], summary: pd.DataFrame) -> None
 def _say_moved(r: ProsthesisCompareResult) -> None:
     """How far errors of the markers move the stances, and how much of the plates is within that."""
     table = r.table("trials")
-    force, centre, within = (float(table[name].mean()) for name in table.columns if name.endswith(MOVED))
+    force, centre, within = (float(table[name].mean()) for name in MOVED)
     say(
         f"errors of the markers move the vertical force by ±{force:.1%} BW and the centre of pressure by "
         f"±{centre:.1%} of the foot (95 %, mean over the stances); the plates' force is within that for {within:.0%} "
@@ -238,24 +241,32 @@ def _say_moved(r: ProsthesisCompareResult) -> None:
     )
 
 
-def goodness_of(stances: Sequence[JudgedStance]) -> GoodnessOfFit:
+def against_the_plates(known: Sequence[tuple[StudiedStance, Stance]], over: str = "") -> GoodnessOfFit:
+    """`goodness_of` over the stances alone, whatever is scored: swing agrees by itself."""
+    return goodness_of([judged_stance(*pair) for pair in known], over)
+
+
+def goodness_of(stances: Sequence[JudgedStance], over: str = "") -> GoodnessOfFit:
     """Force, centre of pressure and ankle moment of every stance against its plate, and stances that end too early.
 
-    Stances that a sole was fitted to count as well: a fit may be wrong too.
+    Stances that a sole was fitted to count as well: a fit may be wrong too. `over` follows the quantities' names.
     """
     doubts = list[Doubt]()
     for quantity in SAID:
         known = {one.name: one.errors.table[quantity][0] for one in stances if quantity in one.errors.table}
-        found = list(of_many_r2(NAMES[quantity], known))
+        found = list(of_many_r2(f"{NAMES[quantity]}{over}", known))
         found += [
-            doubt for name, r2 in known.items() if r2 >= 0.0 for doubt in of_low_r2(f"{name}, {NAMES[quantity]}", r2)
+            doubt
+            for name, r2 in known.items()
+            if r2 >= 0.0
+            for doubt in of_low_r2(f"{name}, {NAMES[quantity]}{over}", r2)
         ]
         doubts += [replace(each, what=f"{each.what}: {ASKED}") for each in found]
     for one in stances:
         if np.isnan(one.errors.stance[0]):
             what = f"is simulated over {one.errors.simulated:.0%} of its stance, and ends before toe-off"
             doubts.append(Doubt(f"{one.name} {what}: no stance time, errors are for that part only", False))
-    return GoodnessOfFit(tuple(doubts), tuple(NAMES[name] for name in SAID))
+    return GoodnessOfFit(tuple(doubts), tuple(f"{NAMES[name]}{over}" for name in SAID))
 
 
 def _say_changes(stances: Sequence[JudgedStance]) -> None:

@@ -14,7 +14,12 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
 from geocontact.analyses.prosthesis.compare.changes import READ as CHANGES
 from geocontact.analyses.prosthesis.quantity_words import NAMES
-from geocontact.below_knee_prosthesis.comparison import by_setting_and_calibrated, curves_of, plain_curves
+from geocontact.below_knee_prosthesis.comparison import (
+    at_shares_of,
+    by_setting_and_calibrated,
+    curves_of,
+    plain_curves,
+)
 from geocontact.below_knee_prosthesis.evaluation import ANOTHER, MEAN, JudgedStance
 from geocontact.data.motion import Course
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, stroke
@@ -53,7 +58,8 @@ OVER = {
     ),
     True: (
         "Errors are scored as in the study: with a quarter of a second of swing on both sides, where both forces are "
-        "nothing, and centres of pressure low-passed at 6 Hz; over the stance alone they are larger."
+        "nothing, and centres of pressure low-passed at 6 Hz; over the stance alone, where the fit is tested, they are "
+        "larger."
     ),
 }
 """Over the stance alone, and as the study has it."""
@@ -149,7 +155,7 @@ def comparison_curves(stances: Sequence[JudgedStance]) -> CurveSheet:
     """Curves of each quantity and setting: plate and model with a band of one standard deviation, both predictors."""
     settings = by_setting_and_calibrated(stances)
     panels = [
-        _panel(name, f"{setting}, {counted(len(own), 'stance')}", own, plain)
+        _panel(name, f"{setting}, {counted(len(own), 'stance')}", own, plain, stances[0])
         for name in SHOWN
         for plain in [plain_curves(stances, name)]
         for setting, own in settings.items()
@@ -159,14 +165,18 @@ def comparison_curves(stances: Sequence[JudgedStance]) -> CurveSheet:
 
 
 def _panel(
-    name: str, where: str, own: Sequence[JudgedStance], plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]]
+    name: str,
+    where: str,
+    own: Sequence[JudgedStance],
+    plain: Mapping[str, Mapping[str, Float[np.ndarray, " s"]]],
+    axis: JudgedStance,
 ) -> Curves:
     title, unit, factor = SHOWN[name]
     found = []
     for label, curves in (
-        ("plate", [one.measured(name) for one in own]),
-        ("model", [one.simulated(name) for one in own]),
-        *((label, curves_of(plain, own, label)) for label in (MEAN, ANOTHER)),
+        ("plate", [at_shares_of(axis, one.measured(name), one) for one in own]),
+        ("model", [at_shares_of(axis, one.simulated(name), one) for one in own]),
+        *((label, curves_of(plain, own, label, axis)) for label in (MEAN, ANOTHER)),
     ):
         if not curves:
             continue

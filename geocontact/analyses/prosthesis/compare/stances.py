@@ -13,7 +13,6 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import RecordedWalk, band_of, simulated, walk_of
 from geocontact.analyses.prosthesis.simulate.walk import read as read_walk
@@ -22,9 +21,11 @@ from geocontact.below_knee_prosthesis.evaluation import (
     ANKLE,
     ANOTHER,
     MEAN,
+    OVER_STANCE,
     JudgedStance,
     Oddness,
     PlateStance,
+    Scoring,
     at_times,
     judged,
     reasons,
@@ -53,10 +54,13 @@ class StudiedStance:
 
 @dataclass(frozen=True, eq=False)
 class SimulatedStance:
-    """A stance along the limb's motion, and how far errors of the markers move it; None without draws."""
+    """A stance along the limb's motion, and how far errors of the markers move it: None without draws, or where these
+    failed for that reason.
+    """
 
     limb: LimbInSocket
     band: MarkerBand | None
+    no_band: str = ""
 
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
@@ -147,15 +151,17 @@ def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
         limb = simulated(one.walk, one.asked)
         if not limb.stance.on.any():
             return "the foot never touches the floor"
-        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
     except InputError as error:
         return error.what
+    try:
+        return SimulatedStance(limb, band_of(one.recorded, limb.stance, one.asked))
+    except InputError as error:
+        return SimulatedStance(limb, None, error.what)
 
 
-def judged_stance(one: StudiedStance, stance: Stance) -> JudgedStance:
+def judged_stance(one: StudiedStance, stance: Stance, scoring: Scoring = OVER_STANCE) -> JudgedStance:
     """A simulated stance beside its plate."""
     trial = one.trial
-    scoring = SCORES[one.asked.score]
     return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated, scoring=scoring)
 
 
@@ -253,7 +259,7 @@ def trials_table(
                 "most ankle moment [N m/kg]": float(np.nanmax(model)),
                 "most ankle moment on the plate [N m/kg]": float(seen.max()),
                 "resultant rmse [-]": one.errors.table["resultant"][1],
-                **(moved_by_markers(one, bands[one.name]) if bands else {}),
+                **(moved_by_markers(one, bands.get(one.name)) if bands else {}),
                 "off by the study's rule [-]": own.by_study,
                 "off by the median [-]": own.by_median,
                 "outlier": own.outlier,
@@ -263,16 +269,21 @@ def trials_table(
     return pd.DataFrame(rows)
 
 
-def moved_by_markers(one: JudgedStance, band: MarkerBand) -> dict[str, float]:
-    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it."""
+MOVED = ("vertical moved by markers [-]", "centre moved by markers [-]", "plate within that [-]")
+"""Columns on errors of the markers."""
+
+
+def moved_by_markers(one: JudgedStance, band: MarkerBand | None) -> dict[str, float]:
+    """Half widths of the band of 95 % while the foot is loaded, and how much of the plate's force is within it; NaN
+    without a band.
+    """
+    if band is None:
+        return dict.fromkeys(MOVED, np.nan)
     s = one.stance
     weight = s.motion.leg.person.mass * GRAVITY
     seen = at_times(s.time, one.plate.time, one.plate.force)[:, 1] / weight
-    return {
-        "vertical moved by markers [-]": band.width("vertical", s.on),
-        "centre moved by markers [-]": band.width("cop_ground", s.on),
-        "plate within that [-]": band.inside("vertical", seen, s.on),
-    }
+    found = band.width("vertical", s.on), band.width("cop_ground", s.on), band.inside("vertical", seen, s.on)
+    return dict(zip(MOVED, found, strict=True))
 
 
 def ensembles_table(stances: Sequence[JudgedStance]) -> pd.DataFrame:

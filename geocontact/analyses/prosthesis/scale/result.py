@@ -254,7 +254,7 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     """The model, its joints and its standing pose."""
     below = stood.foot.record.below
     made = standing_amputee(stood.seen, stood.person, stood.foot, stood.fulcrum, below, stood.joints, o.height)
-    length = residual_of(stood.seen, o.residual_length, o.residual_markers)
+    length = residual_of(stood.seen, o.residual_length, o.residual_markers, o.side)
     if length is not None:
         made = replace(made, prosthetic=with_residual(made.prosthetic, length))
     mass = made.pelvis_body()[0]

@@ -29,7 +29,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID
-from geocontact.analyses.prosthesis.scores import SCORES
+from geocontact.analyses.prosthesis.scores import OVER, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.walk import (
@@ -50,7 +50,7 @@ from geocontact.analyses.prosthesis.stance_files import (
     write_plane,
     write_spheres,
 )
-from geocontact.below_knee_prosthesis.evaluation import StanceErrors, at_times, stance_errors
+from geocontact.below_knee_prosthesis.evaluation import PlateStance, StanceErrors, at_times, stance_errors
 from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
@@ -227,9 +227,9 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     note("stance", plain(told))
     note("socket", plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled}))
     say(found_words(found, told))
-    if errors is not None:
+    if errors is not None and walk.plate is not None:
         say(beside_words(errors))
-        judge(against_the_plate(errors))
+        judge(against_the_plate(found, walk.plate, OVER[o.score]))
         note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
         say(offset_words(walk.leg.offset))
@@ -310,11 +310,16 @@ def beside_words(errors: StanceErrors) -> str:
     )
 
 
-def against_the_plate(errors: StanceErrors) -> GoodnessOfFit:
+def against_the_plate(found: Stance, plate: PlateStance, over: str = "") -> GoodnessOfFit:
+    """`goodness_of` over the stance, whatever is scored: swing agrees by itself."""
+    return goodness_of(stance_errors(found, plate), over)
+
+
+def goodness_of(errors: StanceErrors, over: str = "") -> GoodnessOfFit:
     """Force and centre of pressure beside the plate's: a constant must not describe them better, nor the simulation end
-    before the stance does.
+    before the stance does. `over` follows their names.
     """
-    tested = {NAMES.get(name, name): float(r2) for name, (r2, _) in errors.table.items() if name in SAID}
+    tested = {f"{NAMES[name]}{over}": float(r2) for name, (r2, _) in errors.table.items() if name in SAID}
     doubts = [doubt for name, r2 in tested.items() for doubt in of_low_r2(name, r2)]
     doubts += of_range("the simulation has ended for", 1.0 - errors.simulated, "the plate's stance")
     return GoodnessOfFit(tuple(doubts), tuple(tested))

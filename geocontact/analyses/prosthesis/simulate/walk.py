@@ -128,7 +128,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
         gap_limit=o.gap_limit,
-        residual=residual_of(recorded.standing, o.residual_length, o.residual_markers),
+        residual=residual_of(recorded.standing, o.residual_length, o.residual_markers, o.side),
         around=SCORES[o.score].around + ROOM,
     )
     if walk.hip is not None:

@@ -30,7 +30,8 @@ class ProsthesisWalkOptions(Options):
         Walking trial (.trc, .c3d, .csv) with the markers of pelvis and both legs, as `prosthesis scale` has them.
     by
         angles: recorded; the pelvis' advance and height, socket and keel are found. torques: from the beginning of
-        single support on the prosthesis all coordinates are free, and the torques of that motion have to make it again.
+        single support on the prosthesis all coordinates are free, and the torques of that motion, with the residuals on
+        the pelvis, have to make it again.
     intact
         Load of the ground on the intact foot: that of its plate, or that of spheres under it.
 
@@ -96,9 +97,9 @@ class ProsthesisWalkOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes walk.csv (forces, centres of pressure, joint moments), moments.csv (peak and mean of each joint),
-    coordinates.sto, errors.csv (beside the plates), played_back.csv with torques, a figure, report.html and run.json
-    into OUT.
+    Writes walk.csv (forces, centres of pressure, joint moments, residuals on the pelvis), moments.csv (peak and mean of
+    each joint), work.csv (of each joint), coordinates.sto, errors.csv (beside the plates), played_back.csv with
+    torques, a figure, report.html and run.json into OUT.
     """
 
     markers: Path

@@ -30,13 +30,19 @@ from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
 from geocontact.analyses.prosthesis.walk.show import walk_curves, walk_page
 from geocontact.analyses.prosthesis.walk.steps import MovedLegs, RecordedPerson, moved_legs, read
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
-from geocontact.below_knee_prosthesis.both_sides.joint_work import JointWork, joint_work, metabolic_proxy
-from geocontact.below_knee_prosthesis.both_sides.recorded_steps import PlayedBack, centre_on_floor, force_errors
+from geocontact.below_knee_prosthesis.both_sides.joint_work import (
+    JointMoment,
+    JointWork,
+    joint_moments,
+    joint_work,
+    metabolic_proxy,
+)
+from geocontact.below_knee_prosthesis.both_sides.recorded_steps import PlayedBack, centre_on_floor, load_errors
 from geocontact.below_knee_prosthesis.both_sides.walk import WholeMotion, without_locked
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
-from geocontact.below_knee_prosthesis.own_side import TURNED
+from geocontact.below_knee_prosthesis.own_side import LENGTHS, TURNED
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.opensim.storage_writer import write_storage
@@ -72,6 +78,8 @@ class ProsthesisWalkResult(Result):
         The motion by angles, the forces along its coordinates, and the motion by torques where that was asked for.
     errors
         Agreement with the plates, by foot and quantity.
+    peaks
+        Moments along each coordinate of a joint.
     work
         Of each joint.
     """
@@ -80,6 +88,7 @@ class ProsthesisWalkResult(Result):
     person: RecordedPerson
     moved: MovedLegs
     errors: Mapping[tuple[str, str], Agreement]
+    peaks: Mapping[str, JointMoment]
     work: Mapping[str, JointWork]
 
     @property
@@ -100,7 +109,7 @@ class ProsthesisWalkResult(Result):
         return {name: column for name, column in table.items() if not name.startswith(("pelvis", "socket", "keel"))}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`walk` over time, `moments` by joint, `errors` beside the plates, `played_back` by torques."""
+        """`walk` over time, `moments`, `work` by joint, `errors` beside the plates, `played_back` by torques."""
         walk, side = self.moved.walk, self.options.side
         columns: dict[str, object] = {"time [s]": walk.time}
         for foot, wrench in (("prosthesis", walk.own), ("intact", walk.intact)):
@@ -110,11 +119,14 @@ class ProsthesisWalkResult(Result):
             columns |= {f"{foot} force_{axis} [N]": force[:, k] for k, axis in enumerate("xyz")}
             columns |= {f"{foot} cop_{axis} [mm]": 1e3 * centre[:, k] for k, axis in ((0, "x"), (2, "z"))}
         columns |= {f"{name} moment [N m]": column for name, column in self.moments.items()}
+        residuals = pelvis_residuals(walk, self.moved.forces, side)
+        columns |= {f"{name} residual [{_unit(name)}]": column for name, column in residuals.items()}
         rows = [
-            {"foot": foot, "quantity": name, "unit": "-", "r2 [-]": each.r2, "rmse": each.rmsd}
+            {"foot": foot, "quantity": name, "unit": UNITS.get(name, "-"), "r2 [-]": each.r2, "rmse": each.rmsd}
             for (foot, name), each in self.errors.items()
         ]
-        found = {"walk": pd.DataFrame(columns), "moments": moments_table(self.work), "errors": pd.DataFrame(rows)}
+        found = {"walk": pd.DataFrame(columns), "moments": moments_table(self.peaks)}
+        found |= {"work": work_table(self.work), "errors": pd.DataFrame(rows)}
         if self.moved.beside is not None:
             found["played_back"] = played_table(self.moved.beside)
         return found
@@ -146,13 +158,36 @@ class ProsthesisWalkResult(Result):
         super().write_files(folder)
 
 
-def moments_table(work: Mapping[str, JointWork]) -> pd.DataFrame:
-    """Peak and mean size of each joint's moment, its work, and the proxy of what that costs."""
+UNITS = {"cop_x": "m", "cop_z": "m"}
+"""Units of quantities that are no shares of body weight."""
+
+
+def _unit(name: str) -> str:
+    return "N" if name in LENGTHS else "N m"
+
+
+def pelvis_residuals(
+    walk: WholeMotion, forces: Float[np.ndarray, "t n"], side: Side
+) -> dict[str, Float[np.ndarray, " t"]]:
+    """What holds the pelvis beside joints, ground and gravity, along its coordinates over time [N, N m]: the sum of all
+    that the model has not, of trunk, arms and errors of the recording.
+    """
+    signs = {name: -1.0 if side == "left" and name in TURNED else 1.0 for name in walk.names}
+    columns = zip(walk.names, forces.T, strict=True)
+    return {name: signs[name] * column for name, column in columns if name.startswith("pelvis")}
+
+
+def moments_table(peaks: Mapping[str, JointMoment]) -> pd.DataFrame:
+    """Peak and mean size of the moment along each coordinate of a joint."""
+    rows = [(name, one.peak, one.mean) for name, one in peaks.items()]
+    return pd.DataFrame(rows, columns=["coordinate", "peak moment [N m]", "mean moment [N m]"])
+
+
+def work_table(work: Mapping[str, JointWork]) -> pd.DataFrame:
+    """Work of each joint, and the proxy of what that costs."""
     rows = [
         {
-            "coordinate": name,
-            "peak moment [N m]": one.peak,
-            "mean moment [N m]": one.mean,
+            "joint": name,
             "positive work [J]": one.positive,
             "negative work [J]": one.negative,
             "metabolic proxy [J]": metabolic_proxy({name: one}),
@@ -184,35 +219,46 @@ def run(person: RecordedPerson, o: ProsthesisWalkOptions) -> ProsthesisWalkResul
     markers = MarkerErrors.of(person.steps.poses)
     moved = moved_legs(person, o)
     walk, mass = moved.walk, person.amputee.mass
-    errors = {
-        ("prosthesis", name): each for name, each in force_errors(walk.time, walk.force, person.plate, mass).items()
-    }
+    errors = {("prosthesis", name): each for name, each in load_errors(walk.time, walk.own, person.plate, mass).items()}
     if o.intact == "spheres":
-        own = force_errors(walk.time, walk.intact[:, :3], person.other, mass)
+        own = load_errors(walk.time, walk.intact, person.other, mass)
         errors |= {("intact", name): each for name, each in own.items()}
     names = names_of_side(walk.names, o.side)
+    peaks = joint_moments(walk.time, names, moved.forces)
     work = joint_work(walk.time, names, walk.u, moved.forces)
     judge(goodness_of(errors, markers))
-    _summarise(errors, work, moved, mass)
+    _summarise(errors, peaks, work, moved, mass)
     note("markers", plain({"rms_m": markers.rms, "largest_m": markers.largest}))
-    return ProsthesisWalkResult(options=o, person=person, moved=moved, errors=errors, work=work)
+    return ProsthesisWalkResult(options=o, person=person, moved=moved, errors=errors, peaks=peaks, work=work)
+
+
+TESTED = {"resultant": NAMES["resultant"], "cop_x": NAMES["cop_ground"]}
+"""Quantities that a foot is tested by, in words."""
+
+
+def _named(foot: str, quantity: str) -> str:
+    return TESTED[quantity] if foot == "prosthesis" else f"{TESTED[quantity]} of the intact foot"
 
 
 def goodness_of(errors: Mapping[tuple[str, str], Agreement], markers: MarkerErrors) -> GoodnessOfFit:
-    """Force of the prosthetic foot against its plate, markers against the model."""
-    own = {name: each for (foot, name), each in errors.items() if foot == "prosthesis" and name == "resultant"}
+    """Force and centre of pressure of every foot on spheres against its plate, markers against the model."""
+    own = {_named(*key): each for key, each in errors.items() if key[1] in TESTED}
     doubts = [
         Doubt(f"{one.what}: {ASKED}", one.contradicts, one.size)
         for name, each in own.items()
-        for one in of_low_r2(NAMES[name], each.r2)
+        for one in of_low_r2(name, each.r2)
     ]
     if not markers.within(MOVING):
         doubts.append(Doubt(f"markers are {markers.words(MOVING)}", markers.rms > FAR, markers.rms / MOVING.rms))
-    return GoodnessOfFit(tuple(doubts), (*(NAMES[name] for name in own), "markers"))
+    return GoodnessOfFit(tuple(doubts), (*own, "markers"))
 
 
 def _summarise(
-    errors: Mapping[tuple[str, str], Agreement], work: Mapping[str, JointWork], moved: MovedLegs, mass: float
+    errors: Mapping[tuple[str, str], Agreement],
+    peaks: Mapping[str, JointMoment],
+    work: Mapping[str, JointWork],
+    moved: MovedLegs,
+    mass: float,
 ) -> None:
     """Sentences and results of a walk."""
     found = errors["prosthesis", "resultant"]
@@ -224,19 +270,26 @@ def _summarise(
     if ("intact", "vertical") in errors:
         intact = errors["intact", "vertical"]
         say(f"intact foot on spheres: vertical force within {intact.rmsd:.1%} BW of its plate (R² {intact.r2:.2f})")
-    largest = max(work, key=lambda name: work[name].peak)
+    largest = max(peaks, key=lambda name: peaks[name].peak)
     proxy = metabolic_proxy(work) / mass
     say(
-        f"largest joint moment {work[largest].peak:.0f} N m ({largest.replace('_', ' ')}); metabolic proxy "
+        f"largest joint moment {peaks[largest].peak:.0f} N m ({largest.replace('_', ' ')}); metabolic proxy "
         f"{proxy:.2f} J/kg over these {walk.time[-1] - walk.time[0]:.2f} s (work of the joints, no measurement)"
     )
-    note("moments", plain({name: {"peak_N_m": one.peak, "mean_N_m": one.mean} for name, one in work.items()}))
+    residuals = pelvis_residuals(walk, moved.forces, "right")
+    force, moment = (
+        max(float(np.abs(column).max()) for name, column in residuals.items() if _unit(name) == unit)
+        for unit in ("N", "N m")
+    )
+    say(f"residuals on the pelvis up to {force / (mass * GRAVITY):.1%} BW and {moment:.0f} N m")
+    note("pelvis_residuals", plain({"force_BW": force / (mass * GRAVITY), "moment_N_m": moment}))
+    note("moments", plain({name: {"peak_N_m": one.peak, "mean_N_m": one.mean} for name, one in peaks.items()}))
     note("metabolic_proxy_J_per_kg", plain(proxy))
     beside = moved.beside
     if beside is not None:
         say(
-            f"by its torques alone, every coordinate free, single support stays within 0.5 degrees and 2 % BW for "
-            f"{beside.held:.2f} of {beside.since[-1]:.2f} s; differences grow by {beside.growth:.0f}/s"
+            f"by its torques and the pelvis' residuals, every coordinate free, single support stays within 0.5 degrees "
+            f"and 2 % BW for {beside.held:.2f} of {beside.since[-1]:.2f} s; differences grow by {beside.growth:.0f}/s"
         )
         note("played_back", plain({"held_s": beside.held, "of_s": beside.since[-1], "growth_per_s": beside.growth}))
 

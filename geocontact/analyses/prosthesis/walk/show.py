@@ -23,7 +23,7 @@ FRAMES = 120
 WORDS = [
     "Angles of hips, knees, intact ankle and toes are as recorded, filtered; the pelvis moves forward and up freely.",
     "Markers on the socket move with it against the limb: that motion is in the knee's angle and again in the bushing.",
-    "Trunk, head and arms are one rigid body with the pelvis: what a trunk does otherwise is in the forces along it.",
+    "Trunk, head and arms are one rigid body with the pelvis: what a trunk does otherwise is in the pelvis' residuals.",
     "The metabolic proxy is the joints' work, positive over 0.25, negative over 1.2 (Margaria 1968): no measurement.",
 ]
 
@@ -68,7 +68,8 @@ def walk_page(
         scene_of(model, [skeleton(model, values[shown])]),
         *curves.at(shown),
         frame_table("Forces beside the plate", tables["errors"], 3),
-        frame_table("Moments and work of the joints", tables["moments"], 3),
+        frame_table("Moments of the joints", tables["moments"], 3),
+        frame_table("Work of the joints", tables["work"], 3),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [*WORDS, NOT_A_DEVICE]),

@@ -9,7 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, residual_of
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.recorded_steps import (
@@ -103,9 +103,9 @@ def read(o: ProsthesisWalkOptions) -> RecordedPerson:
     joints = NO_JOINTS if moved is None else standing_joints(standing, moved)
     person = Person(o.mass, o.sex, o.residual)
     made = standing_amputee(standing, person, foot, fulcrum, foot.record.below, joints, o.height)
-    length = residual_of(standing, o.residual_length, o.residual_markers)
-    if length is not None:
-        made = replace(made, prosthetic=with_residual(made.prosthetic, length))
+    length = residual_of(standing, o.residual_length, o.residual_markers, o.side)
+    leg = made.prosthetic if length is None else with_residual(made.prosthetic, length)
+    made = replace(made, prosthetic=leg.with_foot(offset_of_law(o.law, o.static)))
     for line in doubts_of_legs(made, joints, o.height, standing.source):
         reserve(line)
     beside, plate = lab.stance(other, o.plates), lab.stance(own, o.plates)
