@@ -316,7 +316,7 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
 UNLOADED = 0.4  # of the largest total; in swing a knee bears less
 MUCH = 5000.0  # N; five times 100 kg, down stairs it is 3.5 times the weight (Kutzner, J Biomech 43, 2010)
-HELD, CHANGE = 8, 0.1  # samples of one value, and the change of another cell meanwhile, of the largest total
+HELD, CHANGE = 8, 0.05  # samples of one value, and the change of another cell meanwhile, of the largest total
 CYCLES, DRIFTS = 3, 0.1  # from which least forces are compared, and by how much of the largest total they differ
 STILL = 1e-3  # of the largest total; what a cell reads more or less where it works
 SHOWN = 3  # gaps that are named
