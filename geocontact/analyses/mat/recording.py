@@ -28,6 +28,7 @@ from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in,
 from geocontact.trial_checks.channel_checks import odd_rate
 
 STOPS, STOPPED = 5, 3  # frames in which a cell reads the largest value of all, and cells that do: noise differs
+PART = 0.05  # of the pressed samples that are below that value; one pressure everywhere is no range that ends
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6
 
@@ -289,11 +290,12 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
 
 
 def _reserve_one_top(seen: PreparedFrames) -> None:
-    """A warning where several cells stop at one and the same largest value, and no saturation was named."""
+    """A warning where several cells stop at one and the same largest value, below the stated saturation."""
     pressure = np.where(seen.read.valid, np.nan_to_num(seen.read.pressure), 0.0)
     top = float(pressure.max(initial=0.0))
     stopped = ((pressure == top).sum(axis=0) >= STOPS).sum()
-    if 0.0 < top < seen.read.saturation and stopped >= STOPPED:
+    between = ((pressure > 0.0) & (pressure < top)).sum() > PART * (pressure > 0.0).sum()
+    if 0.0 < top < seen.read.saturation and stopped >= STOPPED and between:
         what = f"{stopped} cells stop at one value, {top * 1e-3:.4g} kPa, the largest of all"
         reserve(f"{what}: if that is where they clip, give it in the layout as saturation_kPa; forces are too low")
 

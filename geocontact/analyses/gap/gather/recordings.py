@@ -129,10 +129,12 @@ def _doubt_belt(
     file: Path,
 ) -> None:
     """A warning where the foot under load does not move with the ground, `belt` [m/s] backwards."""
-    under = force > HALF_LOADED * np.nanmax(force)
-    if under.sum() < FEW or not np.nanmax(force) > LOADED:
+    rate = np.gradient(x, time)
+    load = np.where(np.isfinite(force) & np.isfinite(rate), force, 0.0)
+    under = load > max(HALF_LOADED * float(load.max(initial=0.0)), LOADED)
+    if under.sum() < FEW:
         return
-    speed = float(np.nanmedian(np.gradient(x, time)[under]))
+    speed = float(np.median(rate[under]))
     if abs(speed + belt) > SLIDES:
         what = f"the foot under load moves along x at {speed:.2f} m/s, its ground at {-belt:.2f} m/s"
         reserve(f"{file} {plate.name}: {what}; is `belt` right, in m/s, and x forwards?")
