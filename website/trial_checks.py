@@ -52,9 +52,9 @@ by 40 mm for one frame, in the files themselves.
 turn and not after it is in the model's axes already: it stays as it is, with a warning.
 
 What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
-times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate shows with nobody on it in
-a table; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
-whole.
+times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate in a table shows where
+no foot swings; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which
+are not whole.
 
 Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).

@@ -11,7 +11,7 @@ from geocontact.data.multibody.force_plate import LOADED
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.landmarks import FOOT, SIDES, points, the_foot
 from geocontact.trial_checks.plate_checks import HEAVY, Step, steps, velocity_of_floor
-from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+from geocontact.trial_checks.recorded import Check, Contradiction, FootPlate, TrialInputs
 
 AWAY = 0.3
 """m, from a foot's heel and toes to the centre of pressure, seen from above, in the median."""
@@ -27,6 +27,8 @@ SOLE = 0.03
 FAST, OFTEN = 1.0, 0.12
 """m/s beside the floor, of the nearest foot, and share of the loaded samples in which it is; a foot that swings reaches
 3 to 4 m/s, and under load it is faster than the one in 0 to 5.5 % of the samples of 12 steps of 5 people."""
+UNLOADED, SWUNG = 15.0, 10
+"""N that a plate which was set to zero does not show while its foot swings, and samples of swing that are looked at."""
 SLOW = 0.5
 """m/s beside the floor, of the slower one of heel and toes while the foot stands."""
 TOUCH, LEAVE, ALONE = (-0.05, 0.05), (-0.03, 0.07), 0.08
@@ -178,6 +180,20 @@ def stands_under_load(trial: TrialInputs) -> Iterator[Contradiction]:
             what = f"the foot on it moves faster than {FAST:g} m/s in {share:.0%} of the samples in which it is loaded"
             remedy = "is it the plate of this foot, on the markers' clock?"
             yield Contradiction(on.source, on.plate.name, what, remedy)
+        elif len(feet) == 1:
+            yield from _zero(on, seen, rates[0] - np.nanmedian(rate, axis=0))
+
+
+def _zero(on: FootPlate, seen: MarkerTrajectories, rate: Float[np.ndarray, "n 3"]) -> Iterator[Contradiction]:
+    """What the plate of a foot shows while that foot swings, `rate` [m/s] beside the floor."""
+    speed = np.interp(on.plate.time, seen.time, np.linalg.norm(rate, axis=1), np.nan, np.nan)
+    shown = on.normal[speed > FAST]
+    if len(shown) < SWUNG:
+        return
+    low, level, high = (float(each) for each in np.percentile(shown, (25.0, 50.0, 75.0)))
+    if UNLOADED < abs(level) < HEAVY * float(on.normal.max(initial=0.0)) and high - low < 0.5 * abs(level):
+        what = f"it shows {level:.0f} N while the foot on it swings"
+        yield Contradiction(on.source, on.plate.name, what, "was the plate set to zero?")
 
 
 def floor(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -227,7 +243,7 @@ FOOT_CHECKS = (
     Check(
         "at rest under load",
         "speed of the nearest foot, beside the floor, with the load on the plate, sample by sample",
-        f"above {FAST:g} m/s in {OFTEN:.0%} of the loaded samples",
+        f"above {FAST:g} m/s in {OFTEN:.0%} of the loaded samples; {UNLOADED:g} N that stay in swing",
         stands_under_load,
     ),
     Check(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 from jaxtyping import Float
@@ -257,7 +258,13 @@ def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 
 def standing_still(trial: TrialInputs) -> Iterator[Contradiction]:
-    """A marker at one and the same place while the others move on."""
+    """A marker at one and the same place while the others move on, and two of one recording at one place all along."""
+    for seen in trial.recordings:
+        for one, other in combinations(range(len(seen.names)), 2):
+            apart = np.abs(seen.positions[:, one] - seen.positions[:, other]).max(axis=1)
+            if (apart < SAME).sum() >= STILL_FOR and (apart[np.isfinite(apart)] < SAME).all():
+                what = f"{seen.names[other]} is where {seen.names[one]} is, in every frame"
+                yield Contradiction(seen.source, "", what, "is a column copied, or one marker labelled twice?")
     seen = trial.markers
     if seen is None or len(seen.names) < FEWEST + 1 or len(seen) <= STILL_FOR:
         return
@@ -369,7 +376,8 @@ MARKER_CHECKS = (
     Check(
         "frozen marker",
         "the place of a marker with those of the others",
-        f"{STILL_FOR} frames at one place while the median of the others moves by {1e3 * OTHERS_MOVE:.0f} mm",
+        f"{STILL_FOR} frames at one place while the median of the others moves by {1e3 * OTHERS_MOVE:.0f} mm; "
+        "two at one place",
         standing_still,
     ),
     Check(

@@ -33,7 +33,8 @@ have 0.1 and 0.02 m."""
 SPEED, IMPULSE = 0.5, 0.02
 """m/s, from which somebody walks; share of the body's weight that braking or propulsion has in the mean of half a
 step."""
-
+TRAVEL = 0.005
+"""m, along the walk, that a load travels during a step at least; under a foot that rolls it is 150 to 250 mm."""
 
 WORN = 0.4
 """Share of the weight that a force may press down with: a device that is worn does, as the reader of plates says."""
@@ -241,6 +242,10 @@ def braking(trial: TrialInputs) -> Iterator[Contradiction]:
         half, weight = len(step.time) // 2, float(step.normal.mean())
         along, beside = step.force @ forwards / weight, step.force @ across / weight
         first, second = along[:half].mean(), along[half:].mean()
+        way = step.centre[step.heavy] @ forwards
+        if np.isfinite(way).any() and float(np.ptp(way[np.isfinite(way)])) < TRAVEL:
+            what = f"its centre of pressure stays within {1e3 * TRAVEL:.0f} mm along the walk during a step"
+            yield Contradiction(step.on.source, step.on.plate.name, what, "is a column of it missing, or constant?")
         if first > IMPULSE and second < -IMPULSE:
             what = f"it pushes along the walk before it brakes, {first:.1%} and {second:.1%} of the load"
             remedy = "is the sign of the force along the walk turned, or an axis of plates or markers?"
@@ -300,7 +305,7 @@ PLATE_CHECKS = (
     Check(
         "braking",
         "force along the walk in the first and in the second half of a step, with the direction in which markers move",
-        f"{IMPULSE:.0%} of the load, of somebody faster than {SPEED:g} m/s",
+        f"{IMPULSE:.0%} of the load, of somebody faster than {SPEED:g} m/s; a load that moves by {1e3 * TRAVEL:g} mm",
         braking,
     ),
     Check(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +70,39 @@ def _doubt_cells(file: str, time: Float[np.ndarray, " t"], cells: Mapping[str, F
     for name, other in combinations(cells, 2):
         if ranges[name] > STILL * total and np.array_equal(cells[name], cells[other], equal_nan=True):
             reserve(f"{file}: {name} and {other} are equal sample by sample: name the column of each cell, see `map`")
+    for name in cells:
+        if ranges[name] >= STILL * total and (words := _held(name, time, cells, CHANGE * total)):
+            reserve(f"{file}: {words}: was it off or at its end? leave those samples empty")
+
+
+def _held(name: str, time: Float[np.ndarray, " t"], cells: Mapping[str, Float[np.ndarray, " t"]], change: float) -> str:
+    """The first time that a cell has one value while another one changes by more than `change` [N], in words."""
+    edges = np.flatnonzero(np.diff(np.r_[np.nan, cells[name], np.nan]) != 0.0)
+    for start, stop in pairwise(edges):
+        if stop - start < HELD:
+            continue
+        others = {other: values[start:stop] for other, values in cells.items() if other != name}
+        moved = {other: float(np.ptp(values[np.isfinite(values)])) for other, values in others.items()}
+        most = max(moved, key=moved.__getitem__)
+        if moved[most] > change:
+            when = f"from {time[start]:.2f} to {time[stop - 1]:.2f} s"
+            return f"{name} reads {cells[name][start]:.4g} N {when}, while {most} changes by {moved[most]:.0f} N"
+    return ""
+
+
+def doubt_drift(recorded: RecordedCells, regression: CellRegression, cuts: list[Cut]) -> None:
+    """A warning for a cell whose least force in the cycles of a recording rises or falls from the first to the last."""
+    spans = [cut.span for cut in cuts if cut.recording == recorded.file.stem]
+    largest = float(np.max(recorded.forces.total))
+    if len(spans) < CYCLES:
+        return
+    time = recorded.forces.time
+    for name, values in recorded.by_cell(regression).items():
+        least = np.array([values[(time >= one.start) & (time <= one.end)].min() for one in spans])
+        fall = np.diff(least)
+        if abs(least[-1] - least[0]) > DRIFTS * largest and (np.sign(fall) == np.sign(least[-1] - least[0])).all():
+            what = f"the least force of {name} goes from {least[0]:.0f} to {least[-1]:.0f} N over {len(spans)} cycles"
+            reserve(f"{recorded.file.name}: {what}: does the cell drift?")
 
 
 def _named_cycles(o: LoadcellOptions) -> list[GivenCycle] | None:
@@ -283,6 +316,8 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
 UNLOADED = 0.4  # of the largest total; in swing a knee bears less
 MUCH = 5000.0  # N; five times 100 kg, down stairs it is 3.5 times the weight (Kutzner, J Biomech 43, 2010)
+HELD, CHANGE = 8, 0.05  # samples of one value, and the change of another cell meanwhile, of the largest total
+CYCLES, DRIFTS = 3, 0.1  # from which least forces are compared, and by how much of the largest total they differ
 STILL = 1e-3  # of the largest total; what a cell reads more or less where it works
 SHOWN = 3  # gaps that are named
 WHOLE = 1e-6  # how far the two weights of a cell may be from 1 together

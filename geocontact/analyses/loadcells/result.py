@@ -30,6 +30,7 @@ from geocontact.analyses.loadcells.forces import (
     RecordedCells,
     cuts_asked_for,
     cycle_table,
+    doubt_drift,
     ensemble_table,
     read,
     recorded_forces,
@@ -153,6 +154,8 @@ def run(given: LoadCellInputs, o: LoadcellOptions) -> LoadcellResult:
     """Forces of every recording, and the cycles of all of them."""
     recordings = recorded_forces(given, o)
     cuts = cuts_asked_for({each.file: each.forces for each in recordings}, given.cycles, o)
+    for each in recordings:
+        doubt_drift(each, given.regression, cuts)
     say_cycles(cuts)
     return LoadcellResult(options=o, regression=given.regression, recordings=recordings, cuts=cuts)
 

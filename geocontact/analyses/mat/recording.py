@@ -27,6 +27,8 @@ from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
 from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
 from geocontact.trial_checks.channel_checks import odd_rate
 
+STOPS, STOPPED = 5, 3  # frames in which a cell reads the largest value of all, and cells that do: noise differs
+PART = 0.05  # of the pressed samples that are below that value; one pressure everywhere is no range that ends
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6
 
@@ -287,6 +289,17 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
     return found[0], found[1]
 
 
+def _reserve_one_top(seen: PreparedFrames) -> None:
+    """A warning where several cells stop at one and the same largest value, below the stated saturation."""
+    pressure = np.where(seen.read.valid, np.nan_to_num(seen.read.pressure), 0.0)
+    top = float(pressure.max(initial=0.0))
+    stopped = ((pressure == top).sum(axis=0) >= STOPS).sum()
+    between = ((pressure > 0.0) & (pressure < top)).sum() > PART * (pressure > 0.0).sum()
+    if 0.0 < top < seen.read.saturation and stopped >= STOPPED and between:
+        what = f"{stopped} cells stop at one value, {top * 1e-3:.4g} kPa, the largest of all"
+        reserve(f"{what}: if that is where they clip, give it in the layout as saturation_kPa; forces are too low")
+
+
 def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
     judge(goodness_of_cells(frames, clipping), warned=True)
@@ -295,6 +308,7 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
         reserve(
             f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
         )
+    _reserve_one_top(seen)
     dead = int((~frames.valid).sum())
     if dead:
         say(f"{dead} of {frames.valid.size} places of the grid have no working cell")

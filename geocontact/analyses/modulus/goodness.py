@@ -60,3 +60,7 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
     yield from of_size(f"{side}: E*", (profile.lower, profile.upper), CONTACT)
     if (work := each.profiles.get(WORK)) and not work.upper_open:
         yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)
+    width, radius = float(np.sqrt(each.model.evolution.area.max() / np.pi)), float(np.max(each.model.evolution.radius))
+    if width > radius:
+        what = f"{side}: the largest area is that of a circle of {1e3 * width:.1f} mm, wider than the radius of the"
+        yield Doubt(f"{what} contact, {1e3 * radius:.4g} mm: is that radius in mm, and are the areas in mm²?", False)

@@ -47,6 +47,8 @@ FRICTION = 1.0
 Tribol Lett 45:1)."""
 SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
+FORWARD_KNEE = 30.0
+"""Degrees; a knee that is stretched as far as it goes is 10 degrees beyond straight at most."""
 JOINTS, UPRIGHT = slice(3, 6), np.radians(25.0)
 """Ankle, knee and hip; angles of somebody who stands."""
 CELL = "r0c0"
@@ -133,6 +135,7 @@ def channels_of(
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
+    doubt_knee(files.coordinates, chain, q)
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = _plates(files, place, time, c3d_unit, turn)
     used = _used(files, place, time, hip_height(subject, q), chair)
@@ -364,6 +367,15 @@ def motion_of_file(file: Path, chain: Multibody, role: str) -> tuple[Times, Tabl
     if np.abs(np.diff(table.time) - step).max() > UNEVEN * step:
         raise InputError(file, "", f"frames are not {step:g} s apart everywhere", "fill the gaps")
     return table.time, motion_of(table, chain)
+
+
+def doubt_knee(file: Path, chain: Multibody, values: Table) -> None:
+    """A warning for a knee that bends forwards, flexion being positive."""
+    for coordinate, angle in zip(chain.coordinates, np.degrees(values).T, strict=True):
+        if coordinate.name == "knee" and angle.min() < -FORWARD_KNEE and -angle.min() > angle.max():
+            reserve(
+                f"{file}: knee is {angle.min():.0f} degrees at its least, flexion being positive: is its sign turned?"
+            )
 
 
 def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:

@@ -18,6 +18,7 @@ from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, part_lengths
 from geocontact.standing_up.exoskeleton_torque import parameter_names
 from geocontact.standing_up.worn_device import PARTS, DeviceMasses, WornDevice, identified_device
+from geocontact.trial_checks.channel_checks import odd_rate
 
 CUTOFF = 6.0
 """Cut-off of the hinges' angles, whose rates friction follows [Hz]; that of `sit-to-stand device` by default."""
@@ -120,6 +121,8 @@ def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Floa
     """Columns as they are, in SI, at the times of the trial."""
     table = read_table(file)
     add_input(role, file, frames=len(table.time))
+    for odd in odd_rate(str(file), "", table.time):
+        reserve(str(odd))
     values = np.column_stack([table.needed(name) for name in names])
     begin, end = table.time[[0, -1]]
     if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:

@@ -37,6 +37,8 @@ LARGEST_TRC = 512_000_000
 _HEAD = 5
 _ROUNDED = 0.51e-3
 """s that a time may be off the even one by rounding."""
+_RATES, _FEW = 0.05, 10
+"""Share by which the declared rate may differ from that of the times, beside rounding; steps that say so."""
 
 
 def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
@@ -73,6 +75,8 @@ def read_trc(path: str | PathLike[str]) -> MarkerTrajectories:
     if differs := _other_count(declared, "NumFrames", len(values), "frames follow"):
         warnings.warn(InputWarning(f"{file} line 3: {differs}; all are read"), stacklevel=2)
     time = values[:, 1]
+    if differs := _other_rate(declared, time):
+        warnings.warn(InputWarning(f"{file} line 3: {differs}; the times are read"), stacklevel=2)
     late = np.flatnonzero(~(np.diff(time) > 0.0))
     if len(late) or not np.isfinite(time[0]):
         line = places[late[0] + 1] if len(late) else places[0]
@@ -106,6 +110,21 @@ def _unrounded(
     even = (frames - frames[0]) * step
     even = even + np.median(time - even)
     return even if np.all(np.abs(even - time) < min(_ROUNDED, 0.5 * step)) else time
+
+
+def _other_rate(declared: dict[str, str], time: Float[np.ndarray, " t"]) -> str:
+    """How the rate of line 3 differs from that of the times, in words; empty where it does not, or is not there."""
+    try:
+        rate = float(declared.get("DataRate", "nan"))
+    except ValueError:
+        return ""
+    steps = np.diff(time)
+    if len(steps) < _FEW or not (steps > 0.0).all() or not rate > 0.0:
+        return ""
+    own = 1.0 / float(np.median(steps))
+    if abs(own / rate - 1.0) <= _RATES + _ROUNDED * rate:
+        return ""
+    return f"DataRate is {rate:g} Hz, and the times of the frames have {own:.4g} in a second"
 
 
 def _split(line: str, _separator: None, most: int) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -10,7 +11,7 @@ from posixpath import basename
 from xml.etree.ElementTree import Element
 from xml.sax.saxutils import escape, quoteattr
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.opensim.osim_xml import is_true, label, read_document, text_of
 
 GROUND = ("ground", "/ground", "")
@@ -79,6 +80,11 @@ def _load(file: str, element: Element) -> ExternalLoad:
         what = f"'{torque[:40]}' does not belong to the force '{force[:40]}'"
         raise InputError(file, f"{label(element)} <torque_identifier>", what, f"expected {min(known)}")
     named = ["" if each in GROUND else basename(each) for each in frames]
+    if named[0] and not named[1]:
+        what = f"the force is expressed in {named[0]} and its point in the ground: a plate has both in the ground"
+        warnings.warn(
+            InputWarning(f"{file} {label(element)}: {what}; is <force_expressed_in_body> ground?"), stacklevel=2
+        )
     return ExternalLoad(stem.rstrip("_"), body, bool(torque), *named)
 
 

@@ -33,6 +33,7 @@ from geocontact.loads.centre_of_pressure import centre_in_foot
 
 ELSEWHERE = 0.01  # m, that a cell may lie away from where it lies on average without a word
 SHARED = 0.5  # of a trial's samples that what is put beside them must have been recorded at
+HALF_LOADED, FEW, SLIDES = 0.5, 5, 0.4  # of the largest load; samples; m/s between a rolling foot and its ground
 UPRIGHT = 0.999  # smallest cosine between a plate's normal and y
 POSE = {"x": "m", "y": "m", "pitch": "rad"}
 SIDES = ("medial", "lateral")
@@ -112,10 +113,31 @@ def with_plate(table: TrialTable, plate: ForcePlate, file: Path, belt: float) ->
         "force_y": ("N", reaction.force[:, 1]),
         "cop_x": ("m", centre_in_foot(centre[:, 0], x, y, pitch)),
     }
+    _doubt_belt(time, x, reaction.force[:, 1], belt, plate, file)
     values = table.signals.values.copy()  # noqa: PD011
     values[:, table.signals.channels.index("x")] += belt * time
     run = replace(table, signals=replace(table.signals, values=values))
     return _widened(run, RecordedChannels(f"{plate.name} in {file.name}", plate.time, channels))
+
+
+def _doubt_belt(
+    time: Float[np.ndarray, " t"],
+    x: Float[np.ndarray, " t"],
+    force: Float[np.ndarray, " t"],
+    belt: float,
+    plate: ForcePlate,
+    file: Path,
+) -> None:
+    """A warning where the foot under load does not move with the ground, `belt` [m/s] backwards."""
+    rate = np.gradient(x, time)
+    load = np.where(np.isfinite(force) & np.isfinite(rate), force, 0.0)
+    under = load > max(HALF_LOADED * float(load.max(initial=0.0)), LOADED)
+    if under.sum() < FEW:
+        return
+    speed = float(np.median(rate[under]))
+    if abs(speed + belt) > SLIDES:
+        what = f"the foot under load moves along x at {speed:.2f} m/s, its ground at {-belt:.2f} m/s"
+        reserve(f"{file} {plate.name}: {what}; is `belt` right, in m/s, and x forwards?")
 
 
 def with_sides(table: TrialTable, areas: AreaTable | None, forces: ForceCurves, threshold: float | None) -> TrialTable:

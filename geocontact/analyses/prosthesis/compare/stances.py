@@ -10,6 +10,7 @@ import pandas as pd
 
 from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
@@ -69,6 +70,10 @@ def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
     add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
     seen: dict[tuple[str, bool], list[str]] = {}
     found = tuple(_stance(each, study.persons[each.person], o, seen) for each in study.trials)
+    files = {each.trial.markers.resolve(): each for each in found}
+    check_apart(
+        {each.trial.name: each.recorded.seen.positions for each in files.values()}, "one walk is counted as two"
+    )
     for (line, cause), names in seen.items():
         reserve(f"{_whose(names, len(found))}: {line}", cause=cause)
     return found

@@ -27,7 +27,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import chair_force, motion_of_file, require_one_clock
+from geocontact.analyses.sit_to_stand.standing_trials import chair_force, doubt_knee, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
@@ -74,7 +74,9 @@ class StandingRecording:
 def read(o: StandingMovementsOptions) -> StandingRecording:
     """Coordinates and chair on one clock."""
     subject = Subject(height=o.height)
-    time, q = motion_of_file(o.coordinates, leg_chain(subject), "`coordinates`")
+    chain = leg_chain(subject)
+    time, q = motion_of_file(o.coordinates, chain, "`coordinates`")
+    doubt_knee(o.coordinates, chain, q)
     height = hip_height(subject, q)
     if o.plates is None or o.chair is None:
         return StandingRecording(time, height, None)
