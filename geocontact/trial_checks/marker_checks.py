@@ -259,12 +259,12 @@ def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 def standing_still(trial: TrialInputs) -> Iterator[Contradiction]:
     """A marker at one and the same place while the others move on, and two of one recording at one place all along."""
-    for seen in trial.recordings:
-        for one, other in combinations(range(len(seen.names)), 2):
-            apart = np.abs(seen.positions[:, one] - seen.positions[:, other]).max(axis=1)
+    for each in trial.recordings:
+        for one, other in combinations(range(len(each.names)), 2):
+            apart = np.abs(each.positions[:, one] - each.positions[:, other]).max(axis=1)
             if (apart < SAME).sum() >= STILL_FOR and (apart[np.isfinite(apart)] < SAME).all():
-                what = f"{seen.names[other]} is where {seen.names[one]} is, in every frame"
-                yield Contradiction(seen.source, "", what, "is a column copied, or one marker labelled twice?")
+                what = f"{each.names[other]} is where {each.names[one]} is, in every frame"
+                yield Contradiction(each.source, "", what, "is a column copied, or one marker labelled twice?")
     seen = trial.markers
     if seen is None or len(seen.names) < FEWEST + 1 or len(seen) <= STILL_FOR:
         return
