@@ -45,7 +45,7 @@ def at_shares_of(axis: JudgedStance, values: Float[np.ndarray, " s"], of: Judged
     """
     share, longer = axis.errors.share, axis.errors.stance[1] / of.errors.stance[1]
     inside = np.clip(share, 0.0, 1.0)
-    return np.interp(inside + longer * (share - inside), of.errors.share, values)
+    return np.asarray(np.interp(inside + longer * (share - inside), of.errors.share, values))
 
 
 def curves_of(
