@@ -149,7 +149,9 @@ def test_only_a_point_keeps_the_torque() -> None:
 
 
 def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:
-    """Closed form: θ = M/K' (1 - exp(-ζωt) (cos ω'_t + ζω/ω' sin ω't)) about the equilibrium before."""
+    """Closed form: θ = M/K' (1 - exp(-ζωt) (cos ω'_t + ζω/ω' sin ω't)) about the equilibrium before, which may be
+    that of a moment that is never in the course.
+    """
     person = InvertedPendulum(80.0, 1.8, 1.6, 0.4)
     length = 1.8 * (1.0 - 0.039)
     left = 0.6 * 80.0 * GRAVITY * 0.5 * length
@@ -160,8 +162,9 @@ def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:
     damped = omega * np.sqrt(1.0 - 0.4**2)
     decay = np.exp(-0.4 * omega * time) * (np.cos(damped * time) + 0.4 * omega / damped * np.sin(damped * time))
     expected = (2.0 + 10.0 * (1.0 - decay)) / left
-    np.testing.assert_allclose(person.sway(time, moment), expected, atol=2e-3 * 10.0 / left)
-    assert person.sway(time, np.full(len(time), 7.0)) == pytest.approx(np.full(len(time), 7.0 / left))
+    np.testing.assert_allclose(person.sway(time, moment, 2.0), expected, atol=2e-3 * 10.0 / left)
+    np.testing.assert_allclose(person.sway(time, np.full(len(time), 12.0), 2.0), expected, atol=1e-9)
+    assert person.sway(time, np.full(len(time), 7.0), 7.0) == pytest.approx(np.full(len(time), 7.0 / left))
 
 
 def test_ankles_without_reflexes_hold_nobody() -> None:

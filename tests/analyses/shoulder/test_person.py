@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.integrate import solve_ivp
 
 import geocontact as gc
-from geocontact.analyses.shoulder.simulate.person_answers import loads_in_laboratory
+from geocontact.analyses.shoulder.simulate.person_answers import _leaning, loads_in_laboratory
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
@@ -158,3 +159,55 @@ def test_the_back_under_a_kept_torque_is_that_of_the_moved_arms() -> None:
     back = of("extending torque", "lower back")["torque kept"]
     np.testing.assert_allclose(back[5:-5], wanted[5:-5], atol=0.5)
     assert np.abs(back).max() > np.abs(of("extending torque", "lower back")["motion kept"][:n]).max() + 10.0
+
+
+def test_a_push_from_behind_leans_forwards_and_a_weight_behind_the_ankles_backwards() -> None:
+    """y up, z to the right: F h of a push at a height, -W d of a weight behind, and a couple about the left as it is."""
+    still = np.zeros((5, 3))
+    left = np.tile([0.0, 0.0, -1.0], (5, 1))
+    trunk = Trunk(np.arange(5.0), still + [0.0, 0.9, 0.0], still + [0.0, 1.4, 0.0], left)
+    ankle = np.array([[0.05, 0.07, 0.0]])
+    push = Load(still + [10.0, 0.0, 0.0], still + [0.0, 1.27, 0.3], still)
+    weight = Load(still + [0.0, -40.0, 0.0], still + [-0.1, 1.2, 0.0], still)
+    couple = Load(still, still, 3.0 * left)
+    assert _leaning(trunk, ankle, [{"push": push}]) == pytest.approx(10.0 * 1.2)
+    assert _leaning(trunk, ankle, [{"weight": weight}]) == pytest.approx(-40.0 * 0.15)
+    assert _leaning(trunk, ankle, [{"couple": couple}, {"push": push, "weight": weight}]) == pytest.approx(9.0)
+
+
+def test_the_lean_is_that_of_a_pendulum_under_the_device_s_loads() -> None:
+    """Motion kept: moments summed by hand, another integrator; the device hangs behind. Both ways start alike."""
+    result = found()
+    frame, lean = result.frame, of("lean forwards about the ankles by the device", "whole body")
+    time, height = result.arms[0].simulation.motion.time, 1.741
+    middle = np.mean([each.simulation.motion.shoulder for each in result.arms], axis=(0, 1)) * [0.0, 1.0, 1.0]
+    first = frame.origin[0] + frame.rotation[0].T @ middle
+    ankle = first - [0.0, (0.818 - 0.039) * height, 0.0]
+    moment = np.zeros(len(time))
+    for arm in result.arms:
+        for load in loads_in_laboratory(arm.simulation, frame).values():
+            about = np.cross(load.place - ankle, load.force) + load.moment
+            moment += np.sum(frame.rotation[:, 0] * about, axis=1)
+    length = 0.961 * height
+    inertia, toppling = 82.0 * length**2 / 3.0, 82.0 * 9.80665 * 0.5 * length
+    rest = 0.5 * toppling
+    damping = 2.0 * 0.7 * np.sqrt(inertia * rest)
+
+    def rates(t: float, x: np.ndarray) -> list[float]:
+        return [x[1], (np.interp(t, time, moment) - rest * x[0] - damping * x[1]) / inertia]
+
+    start = [moment[0] / rest, 0.0]
+    swung = solve_ivp(rates, time[[0, -1]], start, "LSODA", time, rtol=1e-8, atol=1e-10, max_step=0.01).y[0]
+    np.testing.assert_allclose(lean["motion kept"], swung, atol=1e-5)
+    assert np.degrees(lean["motion kept"][0]) == pytest.approx(-0.22, abs=0.01)
+    assert lean["torque kept"][0] == lean["motion kept"][0] == pytest.approx(moment[0] / rest, rel=1e-3)
+
+
+def test_the_back_of_a_still_trunk_that_leans_by_20_degrees_carries_weights_times_levers() -> None:
+    """De Leva's man of 80 kg without arms: 0.4346 of the mass 0.4486 of the way down, head 0.0694, 0.4 above."""
+    along = np.array([np.sin(np.radians(20.0)), np.cos(np.radians(20.0)), 0.0])
+    hips = np.zeros((9, 3))
+    trunk = Trunk(np.arange(9.0), hips, hips + 0.5 * along, np.tile([0.0, 0.0, -1.0], (9, 1)))
+    needs = back_needs(trunk, [], mass=80.0, sex="male", gravity=np.array([0.0, -9.81, 0.0]))
+    lever = 0.4346 * 0.5 * (1.0 - 0.4486) + 0.0694 * 0.5 * (1.0 + 0.4)
+    assert extending_torque(trunk, needs) == pytest.approx(80.0 * 9.81 * lever * np.sin(np.radians(20.0)))

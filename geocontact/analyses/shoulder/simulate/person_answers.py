@@ -198,14 +198,16 @@ def _of_trunk(
         raise InputError("", "`ankle_stiffness`", str(error), "the ankles alone have 0.91 of it") from error
     ankle = trunk.shoulders[:1] - (SHOULDERS - ANKLE) * height * np.array([[0.0, 1.0, 0.0]])
     pushed = _leaning(trunk, ankle, devices)
-    lean = {WITHOUT: np.zeros(len(trunk.time)), MOTION: person.sway(trunk.time, pushed)}
+    before = float(pushed[0])
+    lean = {WITHOUT: np.zeros(len(trunk.time)), MOTION: person.sway(trunk.time, pushed, before)}
     if until:
         cut = Trunk(trunk.time[:until], trunk.hips[:until], trunk.shoulders[:until], trunk.left[:until])
         loads = [{name: _first(load, until) for name, load in each.device_after.items()} for each in sides]
         changes = [_change(each, until) for each in sides]
         needed = extending_torque(trunk, needs)[:until]
         back[TORQUE] = needed + extending_torque(cut, _none(cut), [*changes, *loads])
-        lean[TORQUE] = person.sway(cut.time, _leaning(cut, ankle, [*changes, *loads]))
+        # the arms' reaction to the device's torque begins at the first frame: nobody stands in its equilibrium before
+        lean[TORQUE] = person.sway(cut.time, _leaning(cut, ankle, [*changes, *loads]), before)
     yield PersonQuantity("lower back", "extending torque", "N m", 1.0, back)
     yield PersonQuantity(
         "whole body", "lean forwards about the ankles by the device", "deg", float(np.degrees(1.0)), lean
