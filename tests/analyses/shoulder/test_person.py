@@ -162,13 +162,17 @@ def test_the_back_under_a_kept_torque_is_that_of_the_moved_arms() -> None:
 
 
 def test_a_push_from_behind_leans_forwards_and_a_weight_behind_the_ankles_backwards() -> None:
-    """y up, z to the right: F h of a push at a height, -W d of a weight behind, and a couple about the left as it is."""
+    """y up, z to the right: F h of a push at a height, -W d of a weight behind, and a couple about the left."""
     still = np.zeros((5, 3))
     left = np.tile([0.0, 0.0, -1.0], (5, 1))
-    trunk = Trunk(np.arange(5.0), still + [0.0, 0.9, 0.0], still + [0.0, 1.4, 0.0], left)
+
+    def at(*values: float) -> np.ndarray:
+        return np.tile(values, (5, 1))
+
+    trunk = Trunk(np.arange(5.0), at(0.0, 0.9, 0.0), at(0.0, 1.4, 0.0), left)
     ankle = np.array([[0.05, 0.07, 0.0]])
-    push = Load(still + [10.0, 0.0, 0.0], still + [0.0, 1.27, 0.3], still)
-    weight = Load(still + [0.0, -40.0, 0.0], still + [-0.1, 1.2, 0.0], still)
+    push = Load(at(10.0, 0.0, 0.0), at(0.0, 1.27, 0.3), still)
+    weight = Load(at(0.0, -40.0, 0.0), at(-0.1, 1.2, 0.0), still)
     couple = Load(still, still, 3.0 * left)
     assert _leaning(trunk, ankle, [{"push": push}]) == pytest.approx(10.0 * 1.2)
     assert _leaning(trunk, ankle, [{"weight": weight}]) == pytest.approx(-40.0 * 0.15)
