@@ -17,7 +17,7 @@ from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad
 from geocontact.shoulder_exoskeleton.joint_loads import Load, arm_needs, bending_torque, raising_torque
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.sway import GRAVITY, InvertedPendulum
-from geocontact.shoulder_exoskeleton.torque_kept import TorqueKept, torque_kept
+from geocontact.shoulder_exoskeleton.torque_kept import LeavesAtOnceError, TorqueKept, torque_kept
 
 MASS, SEX = 80.0, "male"
 DOWN = np.array([0.0, 0.0, -9.81])
@@ -146,6 +146,15 @@ def test_only_a_point_keeps_the_torque() -> None:
     other = replace(s, cuff="surface")
     with pytest.raises(ValueError, match="a cuff that holds at a point"):
         torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), other, frame, mass=MASS, sex=SEX, gravity=DOWN)
+
+
+def test_an_arm_that_leaves_its_range_at_once_keeps_no_torque(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A range that ends where the recorded arm is in the fourth frame, which the device raises it to at once."""
+    s, track, _ = kept()
+    monkeypatch.setattr("geocontact.shoulder_exoskeleton.torque_kept.HIGHEST", float(s.motion.elevation[3]))
+    frame = DeviceFrame(np.zeros((151, 3)), np.tile(np.eye(3), (151, 1, 1)))
+    with pytest.raises(LeavesAtOnceError, match=r"leaves its range after [1-5] frames"):
+        torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), s, frame, mass=MASS, sex=SEX, gravity=DOWN)
 
 
 def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +14,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import geocontact as gc
+from geocontact.analyses.shoulder.simulate import person_answers
 from geocontact.analyses.shoulder.simulate.person_answers import _leaning, loads_in_laboratory
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
 from geocontact.data.wrench import Wrench
@@ -25,6 +28,7 @@ from geocontact.shoulder_exoskeleton.joint_loads import (
     back_needs,
     extending_torque,
 )
+from geocontact.shoulder_exoskeleton.torque_kept import LeavesAtOnceError, torque_kept
 from tests.analyses.shoulder.test_simulate import still_arms
 
 TRIAL = "meshes/overhead_P1T1S100"
@@ -118,6 +122,42 @@ def test_one_arm_has_no_back_and_ankles_must_hold() -> None:
     warnings.simplefilter("ignore", gc.InputWarning)
     with pytest.raises(gc.InputError, match=r"0\.91 m g h holds nobody up"):
         gc.shoulder.simulate(f"{TRIAL}/markers.trc", time="0:1", ankle_stiffness=0.91, **given)
+
+
+def short(monkeypatch: pytest.MonkeyPatch, keeps: Callable[..., object]) -> tuple[ShoulderSimulateResult, str]:
+    """Half a second with another way of keeping the torque, and all warnings."""
+    monkeypatch.setattr(person_answers, "torque_kept", keeps)
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        result = gc.shoulder.simulate(f"{TRIAL}/markers.trc", time="0:0.5", level=1.0, upright="0:0.5", mass=82.0)
+    return result, " ".join(str(each.message) for each in seen)
+
+
+def test_an_arm_that_keeps_no_torque_is_said_and_ends_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The left arm leaves its range at once: motion kept is there for all, torque kept for the right arm alone."""
+
+    def keeps(track: ArmTrack, *given: object, **named: object) -> object:
+        if track.side == "left":
+            raise LeavesAtOnceError("an arm that keeps its torque leaves its range after 3 frames")
+        return torque_kept(track, *given, **named)
+
+    result, words = short(monkeypatch, keeps)
+    assert "left arm: an arm that keeps its torque leaves its range after 3 frames" in words
+    person = result.person
+    assert person is not None
+    assert set(person.kept) == {"right"} and person.until == 0
+    assert [each.where for each in person.quantities if "torque kept" in each.by] == ["right arm"] * 3
+    assert "torque kept" in result.tables()["person"]
+    assert set(result.curves()) == {"shoulder", "person"}
+
+
+def test_what_the_equations_miss_of_the_torque_is_warned_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    def keeps(*given: object, **named: object) -> object:
+        found = torque_kept(*given, **named)
+        return replace(found, unexplained=0.11 * float(np.abs(found.kept).max()))
+
+    assert "right arm, torque kept: equations in three dimensions miss" in short(monkeypatch, keeps)[1]
+    assert "equations in three dimensions" not in short(monkeypatch, torque_kept)[1]
 
 
 def test_markers_of_the_hand_are_needed(tmp_path: Path) -> None:
