@@ -2,7 +2,7 @@
 
 The pull of an adhesion law (`contact.adhesion`) is small beside the load of a joint, so only forces near zero show it.
 Where its interval has no lower end within the bounds, bodies that do not stick fit as well. An error of the
-force's zero acts much as the pull does: exactly so in the law DMT on a constant radius.
+force's zero acts much as the pull does: exactly so in the law DMT on a constant radius, which has no verdict therefore.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ STEP = 1e-4
 """Share of a number by which it is changed for its derivative."""
 ALIKE = 0.9
 """Cosine from which on an error of the force's zero is said to act as the work of adhesion does."""
+SAME = 0.99
+"""Cosine from which on nothing of the work of adhesion is separable from an error of the force's zero; a choice."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,12 @@ class SurfaceEnergy:
     @property
     def separable(self) -> bool:
         """Whether the forces identify it."""
-        return self.from_none and self.limited and self.from_modulus
+        return self.from_none and self.limited and self.from_modulus and self.from_zero
+
+    @property
+    def from_zero(self) -> bool:
+        """Whether an error of the force's zero acts otherwise than it does."""
+        return self.as_zero < SAME
 
     @property
     def why(self) -> str:
@@ -73,7 +80,10 @@ class SurfaceEnergy:
             return "is one number with E*"
         if not self.limited:
             return f"is not limited below {self.upper:.3g} J/m²: the pull stands for something that the law lacks"
-        return f"is not separable from none: 95 % up to {self.upper:.3g} J/m²"
+        if not self.from_none:
+            return f"is not separable from none: 95 % up to {self.upper:.3g} J/m²"
+        alike = f"is not separable from an error of the force's zero (cosine {self.as_zero:.2f})"
+        return f"{alike}: {self.zero:.3g} N of it would be taken for all of w"
 
 
 def surface_energy(each: Identification) -> SurfaceEnergy | None:

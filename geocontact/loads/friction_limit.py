@@ -39,7 +39,7 @@ class FrictionLimit:
     largest, usual
         Largest ratio of shear to normal force under load, and its median [-]; NaN without load.
     noise
-        Standard deviation of white noise of the shear, from its second differences [N].
+        Standard deviation of white noise of the shear [N].
     """
 
     friction: float
@@ -56,15 +56,23 @@ class FrictionLimit:
         return self.beyond <= FEW
 
 
-def friction_limit(shear: Float[np.ndarray, " t"], normal: Float[np.ndarray, " t"], friction: float) -> FrictionLimit:
+def friction_limit(
+    shear: Float[np.ndarray, " t"], normal: Float[np.ndarray, " t"], friction: float, noise: float | None = None
+) -> FrictionLimit:
     """Sizes of shear [N] beside normal forces [N] at the same evenly spaced times; NaN does not count.
 
     A normal force below 0 is none. White noise of variance s² has second differences of variance 6 s².
+
+    Parameters
+    ----------
+    noise
+        Of the shear as recorded [N] (`noise_of`): values interpolated to closer times have nearly none between their
+        samples. From `shear` itself by default.
     """
     both: Bool[np.ndarray, " t"] = np.isfinite(shear) & np.isfinite(normal)
     size, pressed = np.abs(shear), np.maximum(normal, 0.0)
-    noise = noise_of(shear)
-    over = both & (size > friction * pressed + SURE * noise)
+    spread = noise_of(shear) if noise is None else noise
+    over = both & (size > friction * pressed + SURE * spread)
     count = int(both.sum())
     loaded = both & (pressed > LOADED * np.max(pressed[both], initial=0.0)) & (pressed > 0.0)
     ratio = size[loaded] / pressed[loaded]
@@ -75,7 +83,7 @@ def friction_limit(shear: Float[np.ndarray, " t"], normal: Float[np.ndarray, " t
         first=int(np.argmax(over)) if over.any() else -1,
         largest=float(ratio.max()) if len(ratio) else float("nan"),
         usual=float(np.median(ratio)) if len(ratio) else float("nan"),
-        noise=noise,
+        noise=spread,
     )
 
 

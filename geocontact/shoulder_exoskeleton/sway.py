@@ -70,13 +70,19 @@ class InvertedPendulum:
         """K - m g h [N m/rad]."""
         return (self.stiffness - 1.0) * self.toppling
 
-    def sway(self, time: Float[np.ndarray, " t"], moment: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
-        """Lean [rad] under a moment [N m] at even times, from the equilibrium under its first value; exact for one that
-        is linear between them.
+    def sway(
+        self, time: Float[np.ndarray, " t"], moment: Float[np.ndarray, " t"], start: float
+    ) -> Float[np.ndarray, " t"]:
+        """Lean [rad] under a moment [N m] at even times; exact for one that is linear between them.
+
+        Parameters
+        ----------
+        start
+            Moment [N m] in whose equilibrium the person stands before.
         """
         b = 2.0 * self.damping * np.sqrt(self.inertia * self.left)
         matrix = np.array([[0.0, 1.0], [-self.left / self.inertia, -b / self.inertia]])
         drive, seen = np.array([[0.0], [1.0 / self.inertia]]), np.array([[1.0, 0.0]])
-        start = np.array([moment[0] / self.left, 0.0])
-        _, found, _ = lsim((matrix, drive, seen, np.zeros((1, 1))), moment, time - time[0], X0=start)
+        still = np.array([start / self.left, 0.0])
+        _, found, _ = lsim((matrix, drive, seen, np.zeros((1, 1))), moment, time - time[0], X0=still)
         return np.asarray(found)

@@ -41,11 +41,13 @@ if TYPE_CHECKING:
 
 LOWEST, HIGHEST = np.radians(-30.0), np.radians(180.0)
 """Elevations at which an arm that keeps its torque has left the range of a shoulder [rad]; ours."""
+SPLINE = 5
+FEWEST = SPLINE + 1
+"""Frames in which an arm must stay in its range, for the derivatives of its motion."""
 TOLERANCE = 1e-5, 1e-7
 """Relative and absolute, of coordinates, rates and force."""
 LONGEST = 0.01
 """s; longest step, so that none passes over a contact."""
-SPLINE = 5
 PARTS = {
     "shoulder": 3,
     "reach": 3,
@@ -181,6 +183,10 @@ class TorqueKept:
     unexplained: float
 
 
+class LeavesAtOnceError(ArithmeticError):
+    """The arm is in its range for too few frames."""
+
+
 def torque_kept(
     track: ArmTrack,
     hand: HandLoad,
@@ -201,7 +207,8 @@ def torque_kept(
     factor
         Of the support at each frame, as in the simulation; 1 by default.
 
-    ValueError for a cuff that is no point; ArithmeticError where the motion cannot be stepped.
+    ValueError for a cuff that is no point; ArithmeticError where the motion cannot be stepped, `LeavesAtOnceError`
+    where fewer than `FEWEST` frames are.
     """
     if simulation.cuff != "point":
         raise ValueError("the torque is kept in a cuff that holds at a point")
@@ -211,6 +218,8 @@ def torque_kept(
     run = _Coupled(simulation, body, np.ones(len(time)) if factor is None else factor)
     found = run.stepped()
     count = len(found)
+    if count < FEWEST:
+        raise LeavesAtOnceError(f"an arm that keeps its torque leaves its range after {count} frames")
     turn = found[:, 7]
     after = _turned_track(track, turn)
     kept = raising_torque(track, arm_needs(track, hand, **given))[:count]

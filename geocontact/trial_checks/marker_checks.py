@@ -37,6 +37,8 @@ SWINGS, ENDS, LONG_ENOUGH = 0.07, 0.2, 30
 """m, of the middle 95 % of a distance on one segment; share of the trial at either end whose medians are compared, with
 the limit `MOVED`; frames that a pair has to be seen in. Nine recordings of seven people have 27 and 14 mm at most, an
 old one whose pelvis has markers on wands 61 and 7 mm."""
+ANYWHERE = frozenset({"marker", "mark", "mkr", "mk", "point", "pt", "unlabeled", "unlabelled", "th"})
+"""Words before a number that name no segment: of any marker, and of the thoracic vertebrae."""
 STILL_FOR, OTHERS_MOVE, SAME, MOSTLY = 10, 0.03, 1e-6, 0.9
 """Frames for which a marker stays at one place, m that the median of the others moves meanwhile, m that are the same
 place, no digit of a file changing, and share of the trial beyond which it is a place that a model holds."""
@@ -241,7 +243,9 @@ def segments_keep(trial: TrialInputs) -> Iterator[Contradiction]:
 
 
 def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
-    """Labels that name one segment: its landmarks, or one word with a number behind it, RTH1 and RTH2."""
+    """Labels that name one segment: its landmarks, or one word with a number behind it, RTH1 and RTH2; not single
+    letters, as of vertebrae (T1 and T8), nor words for any marker (M1, marker_2).
+    """
     found: dict[str, list[str]] = {}
     for name in names:
         kind, side = landmark(name)
@@ -253,7 +257,9 @@ def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
         elif kind in ("head", "knee"):
             found.setdefault(f"{kind} {side if kind == 'knee' else ''}", []).append(name)
         elif not kind and counted:
-            found.setdefault(counted[1].lower(), []).append(name)
+            word = re.sub("[^a-z]", "", counted[1].lower())
+            if len(word) > 1 and word not in ANYWHERE:
+                found.setdefault(counted[1].lower(), []).append(name)
     return [tuple(each) for each in found.values() if len(each) > 1]
 
 

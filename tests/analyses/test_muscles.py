@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.motion.inverse_dynamics import muscles
 from geocontact.analyses.motion.inverse_dynamics.result import IdResult
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.opensim import muscle_paths
@@ -125,3 +128,116 @@ def test_what_cannot_be_answered_is_refused(
 def test_a_contact_force_without_muscles_is_refused() -> None:
     with pytest.raises(InputError, match="`across`"):
         gc.inverse_dynamics(MESHES / "leg_swing.mot", model=MESHES / "leg.osim", across="tibia_r")
+
+
+def by_hand(
+    names: tuple[str, ...], arms: dict[tuple[int, str], float], pulls: dict[int, float]
+) -> Callable[..., object]:
+    """Constant arms [m] by muscle and coordinate, pulls along the ground's y, in place of the opensim package."""
+
+    def paths(model: Path, coordinates: list[str], values: np.ndarray, beyond: tuple[str, ...]) -> object:
+        found = np.zeros((len(values), len(names), len(coordinates)))
+        for (m, name), arm in arms.items():
+            found[:, m, coordinates.index(name)] = arm
+        pull = np.zeros((len(values), len(names), 3))
+        for m, size in pulls.items():
+            pull[:, m, 1] = size
+        return muscle_paths.MusclePaths(names, np.full(len(names), 3000.0), found, pull)
+
+    return paths
+
+
+def said(model: Path, **options: object) -> tuple[IdResult, str]:
+    """The result and all warnings."""
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        result = asked(model, **options)
+    return result, " ".join(str(each.message) for each in seen)
+
+
+TWO = by_hand(("front", "behind"), {(0, "knee"): 0.04, (1, "knee"): -0.04, (1, "ankle"): -0.03}, {0: 1.0, 1: 1.0})
+
+
+def changed(folder: Path, old: str, new: str) -> Path:
+    """The shipped leg with another text at one place."""
+    text = (MESHES / "leg.osim").read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    (folder / "changed.osim").write_text(text.replace(old, new), encoding="utf-8")
+    return folder / "changed.osim"
+
+
+def test_a_locked_coordinate_is_left_to_its_lock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(muscles, "muscle_paths", TWO)
+    free, _ = said(MESHES / "leg.osim")
+    file = changed(
+        tmp_path, '<Coordinate name="ankle"/>', '<Coordinate name="ankle"><locked>true</locked></Coordinate>'
+    )
+    locked, _ = said(file)
+    assert free.muscles is not None and free.muscles.driven == ("knee", "ankle")
+    assert locked.muscles is not None and locked.muscles.driven == ("knee",)
+
+
+def test_the_y_axis_is_that_of_the_leg_or_warned_of(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same leg with x along its shank; a centre 40 degrees off is still along -y."""
+    monkeypatch.setattr(muscles, "muscle_paths", TWO)
+    tibia = '<Body name="tibia_r"><mass>4.0</mass><mass_center>0 -0.15 0</mass_center>'
+    for place, warned in (("0 -0.15 0", False), ("0.12 -0.15 0", False), ("-0.15 0 0", True), ("0 0.15 0", True)):
+        model = changed(tmp_path, tibia, tibia.replace("0 -0.15 0", place))
+        _, words = said(model, across="tibia_r")
+        assert ("compression is along the y axis, does that point to the joint?" in words) == warned, place
+
+
+def test_a_muscle_on_a_patella_has_no_compression_in_silence(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It turns the knee and pulls at nothing below it; one that turns the ankle alone is not meant."""
+    arms = {(0, "knee"): 0.04, (1, "knee"): -0.04, (2, "ankle"): 0.04}
+    monkeypatch.setattr(muscles, "muscle_paths", by_hand(("rectus", "biceps", "soleus"), arms, {1: 1.0}))
+    _, words = said(MESHES / "leg.osim", across="tibia_r")
+    assert "rectus turn the joint of tibia_r from a body beside it" in words
+    monkeypatch.setattr(muscles, "muscle_paths", by_hand(("rectus", "biceps", "soleus"), arms, {0: 1.0, 1: 1.0}))
+    _, words = said(MESHES / "leg.osim", across="tibia_r")
+    assert "from a body beside it" not in words
+
+
+def test_moments_of_coupled_coordinates_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The ankle as a function of the knee: it is not driven, and its moment is not in the knee's."""
+    monkeypatch.setattr(muscles, "muscle_paths", TWO)
+    line = "<LinearFunction><coefficients>0.5 0</coefficients></LinearFunction>"
+    constraint = (
+        f"<CoordinateCouplerConstraint name='c'><coupled_coordinates_function>{line}</coupled_coordinates_function>"
+        "<independent_coordinate_names>knee</independent_coordinate_names>"
+        "<dependent_coordinate_name>ankle</dependent_coordinate_name></CoordinateCouplerConstraint>"
+    )
+    end = "</JointSet>"
+    model = changed(tmp_path, end, f"{end}<ConstraintSet><objects>{constraint}</objects></ConstraintSet>")
+    result, words = said(model)
+    assert result.muscles is not None and result.muscles.driven == ("knee",)
+    assert "moments along ankle, functions of others, are not passed on" in words
+    assert "not passed on" not in said(MESHES / "leg.osim")[1]
+
+
+def test_a_gap_of_the_measured_force_is_not_bridged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Samples of every 10 ms but for the middle third: nothing is held there, and a force that cannot be is missed."""
+    monkeypatch.setattr(muscles, "muscle_paths", TWO)
+    time = read_table(MESHES / "leg_swing.mot").time
+    low, high = np.quantile(time, (1.0 / 3.0, 2.0 / 3.0))
+    own = np.arange(time[0], time[-1] + 0.005, 0.01)
+    own = own[(own < low) | (own > high)]
+    pd.DataFrame({"time [s]": own, "total [N]": 9e3}).to_csv(tmp_path / "held.csv", index=False)
+    result, words = said(MESHES / "leg.osim", across="tibia_r", held=tmp_path / "held.csv")
+    contact = result.table("contact")
+    gap = (contact["time [s]"] > low + 0.01) & (contact["time [s]"] < high - 0.01)
+    assert gap.sum() > 5 and contact["measured [N]"][gap].isna().all()
+    assert (contact["measured [N]"][~gap] == 9e3).mean() > 0.8
+    assert "lie outside its time or in gaps: muscles alone there" in words
+    assert "contact held: the measured force is missed by up to" in words
+
+
+def test_a_frame_that_cannot_be_solved_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(*_: object) -> None:
+        raise ValueError("frame 3: iterations")
+
+    monkeypatch.setattr(muscles, "muscle_paths", TWO)
+    monkeypatch.setattr(muscles, "static_optimisation", stopped)
+    warnings.simplefilter("ignore", InputWarning)
+    with pytest.raises(InputError, match=r"leg_swing\.mot `muscles`: frame 3: iterations"):
+        asked(MESHES / "leg.osim")

@@ -32,6 +32,19 @@ def test_noise_alone_exceeds_no_limit() -> None:
     assert friction_limit(shear, normal, 0.7).beyond > 0.3
 
 
+def test_values_between_samples_have_the_noise_of_the_samples() -> None:
+    """A recording at a fifth of the rate: straight lines between samples bend in every fifth value only."""
+    rng = np.random.default_rng(2)
+    slow = TIME[::5]
+    normal = 30.0 + 10.0 * np.sin(slow)
+    recorded = 0.8 * normal + rng.normal(0.0, 1.0, len(slow))
+    shear, pressed = np.interp(TIME, slow, recorded), np.interp(TIME, slow, normal)
+    assert not friction_limit(shear, pressed, 0.8).kept, "noise of the lines: none"
+    found = friction_limit(shear, pressed, 0.8, noise_of(recorded))
+    assert found.noise == pytest.approx(1.0, rel=0.1)
+    assert found.kept
+
+
 def test_what_is_not_known_does_not_count() -> None:
     shear, normal = np.sin(TIME), np.full(len(TIME), 0.5)
     shear[500:] = np.nan

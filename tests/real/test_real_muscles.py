@@ -90,4 +90,4 @@ def test_muscles_alone_press_more_than_an_implant_measures(
     beyond = contact[contact["measured [N]"].isna()]
     np.testing.assert_allclose(beyond["held [N]"], beyond["muscles_alone [N]"], atol=1e-6)
     assert any("contact held: knee_angle_r lacks up to" in line for line in held.warnings)
-    assert any("lie outside its time: muscles alone there" in line for line in held.warnings)
+    assert any("lie outside its time or in gaps: muscles alone there" in line for line in held.warnings)

@@ -17,7 +17,7 @@ from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad
 from geocontact.shoulder_exoskeleton.joint_loads import Load, arm_needs, bending_torque, raising_torque
 from geocontact.shoulder_exoskeleton.simulate import ArmSimulation, simulate_arm
 from geocontact.shoulder_exoskeleton.sway import GRAVITY, InvertedPendulum
-from geocontact.shoulder_exoskeleton.torque_kept import TorqueKept, torque_kept
+from geocontact.shoulder_exoskeleton.torque_kept import LeavesAtOnceError, TorqueKept, torque_kept
 
 MASS, SEX = 80.0, "male"
 DOWN = np.array([0.0, 0.0, -9.81])
@@ -148,8 +148,19 @@ def test_only_a_point_keeps_the_torque() -> None:
         torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), other, frame, mass=MASS, sex=SEX, gravity=DOWN)
 
 
+def test_an_arm_that_leaves_its_range_at_once_keeps_no_torque(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A range that ends where the recorded arm is in the fourth frame, which the device raises it to at once."""
+    s, track, _ = kept()
+    monkeypatch.setattr("geocontact.shoulder_exoskeleton.torque_kept.HIGHEST", float(s.motion.elevation[3]))
+    frame = DeviceFrame(np.zeros((151, 3)), np.tile(np.eye(3), (151, 1, 1)))
+    with pytest.raises(LeavesAtOnceError, match=r"leaves its range after [1-5] frames"):
+        torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), s, frame, mass=MASS, sex=SEX, gravity=DOWN)
+
+
 def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:
-    """Closed form: θ = M/K' (1 - exp(-ζωt) (cos ω'_t + ζω/ω' sin ω't)) about the equilibrium before."""
+    """Closed form: θ = M/K' (1 - exp(-ζωt) (cos ω'_t + ζω/ω' sin ω't)) about the equilibrium before, which may be
+    that of a moment that is never in the course.
+    """
     person = InvertedPendulum(80.0, 1.8, 1.6, 0.4)
     length = 1.8 * (1.0 - 0.039)
     left = 0.6 * 80.0 * GRAVITY * 0.5 * length
@@ -160,8 +171,9 @@ def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:
     damped = omega * np.sqrt(1.0 - 0.4**2)
     decay = np.exp(-0.4 * omega * time) * (np.cos(damped * time) + 0.4 * omega / damped * np.sin(damped * time))
     expected = (2.0 + 10.0 * (1.0 - decay)) / left
-    np.testing.assert_allclose(person.sway(time, moment), expected, atol=2e-3 * 10.0 / left)
-    assert person.sway(time, np.full(len(time), 7.0)) == pytest.approx(np.full(len(time), 7.0 / left))
+    np.testing.assert_allclose(person.sway(time, moment, 2.0), expected, atol=2e-3 * 10.0 / left)
+    np.testing.assert_allclose(person.sway(time, np.full(len(time), 12.0), 2.0), expected, atol=1e-9)
+    assert person.sway(time, np.full(len(time), 7.0), 7.0) == pytest.approx(np.full(len(time), 7.0 / left))
 
 
 def test_ankles_without_reflexes_hold_nobody() -> None:

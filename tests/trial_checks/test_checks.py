@@ -210,6 +210,20 @@ def slipping(by: float) -> Callable[[np.ndarray], np.ndarray]:
     return change
 
 
+def labelled(*pairs: str) -> Callable[[TrialInputs], TrialInputs]:
+    """Two further markers for each word, a number behind it: 0.1 m above the right ASIS, and ever farther."""
+
+    def change(trial: TrialInputs) -> TrialInputs:
+        seen = trial.markers
+        one = seen.positions[:, 3] + [0.0, 0.1, 0.0]
+        other = one + np.linspace(0.1, 0.3, len(one))[:, None] * [0.0, 1.0, 0.0]
+        places = [seen.positions, *([each[:, None] for _ in pairs for each in (one, other)])]
+        names = (*seen.names, *(f"{word}{k}" for word in pairs for k in (1, 8)))
+        return replace(trial, markers=replace(seen, positions=np.concatenate(places, axis=1), names=names))
+
+    return change
+
+
 def held(frames: int) -> Callable[[np.ndarray], np.ndarray]:
     """The right PSIS stays where it was at 1 s, and comes back to its course at 0.4 m/s, so that it does not jump."""
 
@@ -271,6 +285,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a plate 0.1 s late": ("clock", lambda t: plated(t, later(0.1))),
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
     "a marker that slips by 40 mm": ("one segment", lambda t: moved(replace(t, standing=None), slipping(0.04))),
+    "thigh markers that part": ("one segment", labelled("RTH")),
     "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
     "82 kg in pounds": ("mass and upper arm", carried(181.0)),
     **modelled.DAMAGED,
@@ -292,6 +307,7 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "plates 40 mm aside": lambda t: moved(t, lambda p: p + np.array([0.0, 0.0, 0.04])),
     "corners 0.25 m away": lambda t: plated(t, edged(0.25)),
     "a marker that slips by 15 mm": lambda t: moved(replace(t, standing=None), slipping(0.015)),
+    "numbers that name no segment": labelled("M", "T", "marker_", "Point", "Th"),
     "5 frames with the last place": lambda t: moved(replace(t, standing=None), held(5)),
     "110 kg with an upper arm of 0.3 m": carried(110.0),
     **modelled.NEARLY,

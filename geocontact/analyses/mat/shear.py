@@ -1,7 +1,8 @@
 """Shear of a two-axis mat on its surface: force and moment over time, beside the friction limit of its pressures.
 
 A cell of area A with shear stresses τ_r and τ_c passes A (τ_r t_r + τ_c t_c) on to the body at its centre; t_r and t_c
-are the directions of growing row and column on the surface, from the cell's corners, across the cell's normal.
+are the directions of growing row and column on the surface, from the cell's corners, across the cell's normal. Only
+cells that press count: what others show is noise, and sizes of noise would add up. wrench.csv has pressures alone.
 """
 
 from __future__ import annotations
@@ -10,14 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat
 from geocontact.analyses.mat.recording import TOUCH, Travel
 from geocontact.data.pressure_frames import PressureFrames
-from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit
+from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit, noise_of
 from geocontact.loads.mat_load import MatLoad
 
 FRICTION = 1.0
@@ -31,20 +32,22 @@ class MatShear:
     Parameters
     ----------
     force, moment
-        Of all cells [N], [N m].
-    size
-        Sum over the cells of shear stress times area, whichever way it points [N].
+        Of all cells that press [N], [N m].
     limit
-        `size` beside friction times the sum of pressure times area.
+        `size` beside friction times the sum of pressure times area: never more than its cells' own sizes together.
     cells_beyond
         Share of loaded cells and frames whose own shear stress exceeds friction times their pressure.
     """
 
     force: Float[np.ndarray, "t 3"]
     moment: Float[np.ndarray, "t 3"]
-    size: Float[np.ndarray, " t"]
     limit: FrictionLimit
     cells_beyond: float
+
+    @property
+    def size(self) -> Float[np.ndarray, " t"]:
+        """Length of the force [N]."""
+        return np.asarray(np.linalg.norm(self.force, axis=1))
 
 
 def mat_shear(
@@ -65,8 +68,9 @@ def mat_shear(
     if given.shear is None:
         return None
     pressure, whole = pressed
-    kept = np.flatnonzero(np.abs(given.recorded.time[:, None] - frames.time[None]).min(axis=1) <= TOUCH)
-    along, across = (there.cells.of(each.pressure[kept]) for each in given.shear)
+    kept = same_times(given.recorded.time, frames.time)
+    pressing, loaded = pressure > 0.0, pressure >= o.touched
+    along, across = (np.where(pressing, there.cells.of(each.pressure[kept]), 0.0) for each in given.shear)
     rows, columns = tangents(there)
     area, centre = there.cells.area, there.cells.centre
     each = area[:, None] * (along[..., None] * rows + across[..., None] * columns)
@@ -76,14 +80,26 @@ def mat_shear(
         turn = travel.poses.rotation
         force, moment = turn.apply(force), turn.apply(moment) + np.cross(travel.poses.translation, turn.apply(force))
     moment = moment - np.cross(origin, force)
-    stress = np.linalg.norm(along[..., None] * rows + across[..., None] * columns, axis=2)
+    stress = np.linalg.norm(each, axis=2) / area
     mu = FRICTION if o.friction is None else o.friction
-    size = stress @ area
-    loaded = pressure >= o.touched
     beyond = float(np.mean(stress[loaded] > mu * pressure[loaded])) if loaded.any() else 0.0
-    found = MatShear(np.asarray(force), np.asarray(moment), size, friction_limit(size, whole.pressing, mu), beyond)
-    _report(found, frames.time)
+    limit = friction_limit(np.linalg.norm(force, axis=1), whole.pressing, mu, _noise(force, pressing))
+    found = MatShear(np.asarray(force), np.asarray(moment), limit, beyond)
+    _report(found, frames.time, "" if o.friction is not None else " (the default: state `friction`)")
     return found
+
+
+def same_times(recorded: Float[np.ndarray, " r"], wanted: Float[np.ndarray, " t"]) -> Int[np.ndarray, " k"]:
+    """Indices of recorded times that are among the wanted ones, which grow, but for rounding."""
+    after = np.searchsorted(wanted, recorded)
+    ends = [wanted[np.clip(k, 0, len(wanted) - 1)] for k in (after - 1, after)]
+    return np.flatnonzero(np.min([np.abs(recorded - end) for end in ends], axis=0) <= TOUCH)
+
+
+def _noise(force: Float[np.ndarray, "t 3"], pressing: Bool[np.ndarray, "t n"]) -> float:
+    """Of the three parts together, where a cell presses [N]: the length of noise alone varies less than they do."""
+    under = np.where(pressing.any(axis=1)[:, None], force, np.nan)
+    return float(np.linalg.norm([noise_of(part) for part in under.T]))
 
 
 def tangents(there: PlacedMat) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
@@ -115,13 +131,13 @@ def shear_table(found: MatShear, normal: Float[np.ndarray, " t"], time: Float[np
     )
 
 
-def _report(found: MatShear, time: Float[np.ndarray, " t"]) -> None:
+def _report(found: MatShear, time: Float[np.ndarray, " t"], default: str) -> None:
     limit, most = found.limit, int(np.argmax(found.size))
     say(
-        f"shear up to {found.size[most]:.1f} N at {time[most]:g} s (sum of shear stress × area), over the normal "
-        f"force: median {limit.usual:.2f}, at most {limit.largest:.2f}"
+        f"shear up to {found.size[most]:.1f} N at {time[most]:g} s (vector sum, cells that press; in shear.csv, not in "
+        f"wrench.csv), over the normal force: median {limit.usual:.2f}, at most {limit.largest:.2f}"
     )
     if not limit.kept:
-        what = f"shear exceeds friction {limit.friction:g} times the normal force for {limit.beyond:.0%} of the time"
-        reserve(f"{what}, first at {time[limit.first]:g} s: {CAUSES}")
+        what = f"shear exceeds friction {limit.friction:g}{default} times the normal force"
+        reserve(f"{what} for {limit.beyond:.0%} of the time, first at {time[limit.first]:g} s: {CAUSES}")
     note("shear", {"friction": limit.friction, "beyond": limit.beyond, "cells_beyond": found.cells_beyond})

@@ -26,7 +26,7 @@ from geocontact.io.opensim.coordinates import columns_of, motion_of
 from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
 from geocontact.io.text.tables import read_table
-from geocontact.loads.friction_limit import friction_limit
+from geocontact.loads.friction_limit import friction_limit, noise_of
 from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
@@ -163,7 +163,7 @@ def channels_of(
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         shear = site_shear(files.strap, time)
-        _confront_shear(files.name, shear, strap, time)
+        _confront_shear(files, shear, strap, time)
         roles = {site: f"{files.name} strap_{site}" for site in sites}
         elsewhere = {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
     sat_on = None
@@ -258,19 +258,23 @@ def site_shear(files: Sequence[Path], time: Times) -> Times | None:
 
 
 def _in_newtons(file: Path, time: Times) -> Times:
-    table = read_table(file)
-    values = column_in_newtons(table, SHEAR, None)[0]
-    return np.asarray(np.interp(time, table.time, values))
+    return np.asarray(np.interp(time, read_table(file).time, _shear_in(file)))
 
 
-def _confront_shear(name: str, shear: Times | None, normal: Times, time: Times) -> None:
+def _shear_in(file: Path) -> Float[np.ndarray, " s"]:
+    """At the file's own times [N]."""
+    return np.asarray(column_in_newtons(read_table(file), SHEAR, None)[0])
+
+
+def _confront_shear(files: StandingTrialFiles, shear: Times | None, normal: Times, time: Times) -> None:
     """A warning for shear beyond what friction can pass on under the net normal force of the mats."""
     if shear is None:
         return
-    found = friction_limit(shear, np.abs(normal), FRICTION)
+    noise = float(np.linalg.norm([noise_of(_shear_in(file)) for file in files.strap]))
+    found = friction_limit(shear, np.abs(normal), FRICTION, noise)
     if not found.kept:
         reserve(
-            f"{name} strap: the measured shear exceeds friction {FRICTION:g} times the normal force for "
+            f"{files.name} strap: the measured shear exceeds friction {FRICTION:g} times the normal force for "
             f"{found.beyond:.0%} of the time, first at {time[found.first]:.2f} s (median ratio {found.usual:.2g}): "
             "does the strap's tension press on both sides, or is a unit another one?"
         )

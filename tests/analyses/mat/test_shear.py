@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from geocontact.analyses.mat.result import MatResult
+from geocontact.analyses.mat.shear import same_times
 from geocontact.data.errors import InputError
 from tests.analyses.mat.samples import COLS, FORCE, MOMENT, PITCH, ROWS, THIGH, flat, frames, shipped
 from tests.analyses.mat.test_motion import pose, poses
@@ -53,6 +54,48 @@ def test_shear_beyond_friction_is_named(tmp_path: Path) -> None:
     assert found.shear is not None
     assert (found.shear.limit.beyond, found.shear.cells_beyond) == (pytest.approx(0.5), pytest.approx(0.5))
     assert any("shear exceeds friction 0.5 times the normal force for 50% of the time" in w for w in found.warnings)
+
+
+def test_noise_adds_up_to_no_shear(tmp_path: Path) -> None:
+    """Half of the cells carry 10 kPa, noise of 1 kPa in every cell: lengths over all cells would be 1.5 N."""
+    shape = (300, ROWS, COLS)
+    pressure = np.full(shape, 10.0)
+    pressure[:, ROWS // 2 :] = 0.0
+    rng = np.random.default_rng(6)
+    rows, columns = rng.normal(0.0, 1.0, (2, *shape))
+    found = sheared(tmp_path, pressure, rows, columns, friction=0.05)
+    loaded = ROWS // 2 * COLS
+    spread = AREA * 1e3 * np.sqrt(loaded)
+    table = found.tables()["shear"]
+    assert table["shear [N]"].mean() == pytest.approx(spread * np.sqrt(np.pi / 2.0), rel=0.1), "Rayleigh"
+    size = AREA * 1e3 * np.hypot(rows, columns)[:, : ROWS // 2].sum(axis=(1, 2))
+    assert np.mean(size > 0.05 * table["normal [N]"]) > 0.9, "lengths of the noise exceed the limit"
+    assert found.shear is not None
+    assert found.shear.limit.noise == pytest.approx(np.sqrt(2.0) * spread, rel=0.2)
+    assert found.shear.limit.kept
+    assert not [each for each in found.warnings if "shear" in each]
+
+
+def test_an_unloaded_mat_has_no_shear(tmp_path: Path) -> None:
+    """Loaded from the hundredth frame on; the warning says that its friction is the default."""
+    shape = (200, ROWS, COLS)
+    pressure = np.zeros(shape)
+    pressure[100:] = 10.0
+    rows = np.random.default_rng(7).normal(0.0, 1.0, shape)
+    rows[150:] += 20.0
+    found = sheared(tmp_path, pressure, rows, np.zeros(shape))
+    assert (found.tables()["shear"]["shear [N]"][:100] == 0.0).all()
+    assert found.shear is not None
+    assert found.shear.limit.beyond == pytest.approx(0.25)
+    assert any("friction 1 (the default: state `friction`) times the normal force for 25%" in w for w in found.warnings)
+
+
+def test_frames_are_found_in_long_recordings() -> None:
+    """By a search in order: all pairs of 200 000 frames would need 320 GB."""
+    recorded = np.arange(200_000) * 0.01
+    wanted = recorded[500:180_000:3] + 4e-7
+    np.testing.assert_array_equal(same_times(recorded, wanted), np.arange(500, 180_000, 3))
+    assert same_times(recorded[:3], np.array([0.01])).tolist() == [1]
 
 
 def test_on_a_thigh_it_is_the_sum_over_the_written_cells(tmp_path: Path) -> None:

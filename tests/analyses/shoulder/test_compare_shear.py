@@ -65,6 +65,20 @@ def test_errors_of_the_shear_are_those_by_hand(tmp_path: Path) -> None:
     assert "Shear beside the friction limit" in str(found.pages({})["report.html"])
 
 
+def test_noise_of_a_slow_recording_is_no_shear_beyond_friction(tmp_path: Path) -> None:
+    """A mat at 20 Hz beside 100 Hz, sliding at the limit: noise is that of the samples, not of lines between them."""
+    slow = TIME[::5]
+    rng = np.random.default_rng(4)
+    shear = 0.5 * NORMAL[::5] + rng.normal(0.0, 0.3, len(slow))
+    file = tmp_path / "cell.csv"
+    pd.DataFrame({"time [s]": slow, "normal [N]": NORMAL[::5], "shear [N]": shear}).to_csv(file, index=False)
+    with pytest.warns(gc.InputWarning, match="R² is") as seen:
+        own = gc.shoulder.compare(simulated(tmp_path, 0.5), file).tables()["friction"].iloc[0]
+    assert not [each for each in seen if "exceeds friction" in str(each.message)]
+    assert own["noise [N]"] == pytest.approx(0.3, rel=0.2)
+    assert own["beyond [-]"] < 0.01
+
+
 @pytest.mark.parametrize(("factor", "words"), [(3.0, "doubtful: the measured shear exceeds"), (8.0, "contradicts")])
 def test_shear_beyond_the_friction_limit_is_named(tmp_path: Path, factor: float, words: str) -> None:
     """Friction is that of the simulation, 0.2; share of the time and first moment by hand; a smooth course."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,18 @@ def test_shear_is_read_with_its_unit_and_confronted_with_friction(tmp_path: Path
     assert plain.shear is None
     assert mean_trial([read, plain], read.time).shear is None
     np.testing.assert_allclose(mean_trial([read, read], read.time).shear, read.shear)
+
+
+def test_noise_of_a_slow_strap_is_no_shear_beyond_friction(tmp_path: Path) -> None:
+    """Load cells of 1 N of noise at a fifth of the rate, at the limit: no sample exceeds it by 3 N."""
+    study = write_study(tmp_path)
+    recorded = pd.read_csv(tmp_path / "P1_strap.csv").iloc[::5]
+    recorded["shear [N]"] = recorded["normal [N]"].abs() + np.random.default_rng(5).normal(0.0, 1.0, len(recorded))
+    recorded.to_csv(tmp_path / "P1_strap.csv", index=False)
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        assert standing_trials(study, "study").trials[0].shear is not None
+    assert not [each for each in seen if "exceeds friction" in str(each.message)]
 
 
 def test_all_files_of_a_strap_have_shear_or_none(tmp_path: Path) -> None:

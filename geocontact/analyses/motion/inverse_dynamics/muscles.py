@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
-from geocontact.analyses.frame.collector import add_input, contradicted, reserve, say
+from geocontact.analyses.frame.collector import add_input, contradicted, judge, reserve, say
 from geocontact.analyses.motion.inverse_dynamics.loads import Loaded
 from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.data.errors import InputError
 from geocontact.dynamics.inverse_dynamics import force_across
 from geocontact.dynamics.static_optimisation import Contact, MuscleForces, static_optimisation
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
+from geocontact.identify.signals.filters import gaps, in_gaps
 from geocontact.io.opensim.muscle_paths import MusclePaths, muscle_paths
 from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.tables import listed
@@ -28,7 +31,7 @@ if TYPE_CHECKING:
 IDLE = 1.0
 """N m; a coordinate about which all muscles together make less in every frame is left to no muscle."""
 MISSED = 0.05
-"""Share of a coordinate's largest moment that reserves may make (Hicks et al. 2015)."""
+"""Share of a coordinate's largest moment that reserves may make (Hicks et al. 2015), and of a held force."""
 SHOWN = 6
 """Muscles that are drawn: those that work most."""
 
@@ -70,17 +73,31 @@ def estimated_muscles(given: Loaded, tree: Tree, forces: GeneralisedForces, o: I
     beyond = () if o.across is None else beyond_joint(given.model, o.across)
     paths = muscle_paths(o.model, names, given.shown, beyond)
     reach = np.abs(np.einsum("tmn,m->tmn", paths.arms, paths.strongest)).sum(axis=1).max(axis=0)
-    dependent = {coupler.dependent for coupler in given.model.couplers}
-    free = np.array([name not in dependent for name in names])
-    driven = np.flatnonzero((reach > IDLE) & ~forces.at_ground & free)
+    driven = np.flatnonzero((reach > IDLE) & ~forces.at_ground & independent(given.model))
+    _warn_of_coupled(given.model, [names[k] for k in driven])
     arms, moments = paths.arms[:, :, driven], np.asarray(forces.values)[:, driven]
     contact = None if o.across is None else _contact(given, tree, paths, o)
-    alone = static_optimisation(paths.strongest, arms, moments, None if contact is None else _unheld(contact))
-    known = contact is not None and contact.held is not None
-    held = static_optimisation(paths.strongest, arms, moments, contact) if known else None
+    try:
+        alone = static_optimisation(paths.strongest, arms, moments, None if contact is None else _unheld(contact))
+        known = contact is not None and contact.held is not None
+        held = static_optimisation(paths.strongest, arms, moments, contact) if known else None
+    except ValueError as error:
+        raise InputError(o.coordinates, "`muscles`", str(error), "leave these times out, or the option") from error
     found = EstimatedMuscles(paths, alone, held, contact, o.across or "", tuple(names[k] for k in driven))
     _report(found, moments)
     return found
+
+
+def independent(model: Multibody) -> Bool[np.ndarray, " n"]:
+    """Coordinates that muscles can drive: neither locked, which a lock holds, nor functions of others."""
+    dependent = {coupler.dependent for coupler in model.couplers}
+    return np.array([not c.locked and c.name not in dependent for c in model.coordinates])
+
+
+def _warn_of_coupled(model: Multibody, driven: Sequence[str]) -> None:
+    coupled = tuple(each.dependent for each in model.couplers if set(each.of) & set(driven))
+    if coupled:
+        reserve(f"moments along {listed(coupled)}, functions of others, are not passed on to those: muscles lack them")
 
 
 def beyond_joint(model: Multibody, body: str) -> tuple[str, ...]:
@@ -95,8 +112,9 @@ def beyond_joint(model: Multibody, body: str) -> tuple[str, ...]:
 
 
 def _contact(given: Loaded, tree: Tree, paths: MusclePaths, o: IdOptions) -> Contact:
-    """Along the y axis of the body, which points to the joint; compression is positive."""
+    """Along the y axis of the body, which is to point to the joint; compression is positive."""
     across = o.across or ""
+    _warn_of_axis(given.model, across)
     force, turn = force_across(tree, across, given.recorded, given.values, given.time, given.loads)
     along = turn[:, :, 1]
     net = -np.einsum("ti,ti->t", force, along)
@@ -105,7 +123,30 @@ def _contact(given: Loaded, tree: Tree, paths: MusclePaths, o: IdOptions) -> Con
         raise InputError(
             o.model, "`across`", f"no muscle crosses the joint of {across}", "name the body beyond a joint"
         )
+    _warn_of_beside(given.model, paths, across)
     return Contact(pulls, net, _held(given, o))
+
+
+def _warn_of_axis(model: Multibody, across: str) -> None:
+    """Unless the mass centre lies within 45 degrees of -y, seen from the joint."""
+    body = next(each for each in model.bodies if each.name == across)
+    joint = next(each for each in model.joints if each.child == across)
+    x, y, z = body.centre - joint.child_offset.translation
+    if -y <= np.hypot(x, z):
+        place = ", ".join(f"{1e3 * each:.0f}" for each in (x, y, z))
+        what = f"the mass centre of {across} is at ({place}) mm from its joint, not along -y"
+        reserve(f"{what}: compression is along the y axis, does that point to the joint?")
+
+
+def _warn_of_beside(model: Multibody, paths: MusclePaths, across: str) -> None:
+    """Muscles that turn the joint and pull at nothing beyond it: they end on a body beside, such as a patella."""
+    own = {c.name for joint in model.joints if joint.child == across for c in joint.coordinates}
+    columns = [k for k, c in enumerate(model.coordinates) if c.name in own]
+    turns = (np.abs(paths.arms[:, :, columns]).max(axis=(0, 2), initial=0.0) * paths.strongest) > IDLE
+    beside = tuple(paths.names[m] for m in np.flatnonzero(turns & ~paths.pulls.any(axis=(0, 2))))
+    if beside:
+        what = f"{listed(beside)} turn the joint of {across} from a body beside it (a patella?)"
+        reserve(f"{what}: their compression is missing")
 
 
 def _held(given: Loaded, o: IdOptions) -> Float[np.ndarray, " t"] | None:
@@ -116,12 +157,14 @@ def _held(given: Loaded, o: IdOptions) -> Float[np.ndarray, " t"] | None:
     if "total" not in curves.forces:
         raise InputError(o.held, "", "has no total", "give total, or medial and lateral")
     found = np.interp(given.time, curves.time, curves.forces["total"], left=np.nan, right=np.nan)
+    found[in_gaps(given.time, gaps(curves.time))] = np.nan
     there = np.isfinite(found)
     if not there.any():
         span = f"{curves.time[0]:g} to {curves.time[-1]:g} s"
         raise InputError(o.held, "", f"no frame of the motion lies in its time ({span})", "are the clocks the same?")
     if not there.all():
-        reserve(f"{o.held}: {int((~there).sum())} of {len(there)} frames lie outside its time: muscles alone there")
+        lacking = f"{int((~there).sum())} of {len(there)} frames lie outside its time or in gaps"
+        reserve(f"{o.held}: {lacking}: muscles alone there")
     return np.asarray(found)
 
 
@@ -149,6 +192,15 @@ def _report(found: EstimatedMuscles, moments: Float[np.ndarray, "t n"]) -> None:
             f"measured are {np.nanmax(contact.held):.0f} N at most: muscles alone are {off:.0f} N off (RMS); held to "
             f"{kept:.0f} N the squared activations are {more:.2f} times as large"
         )
+        judge(_goodness(found.held.compression[there], contact.held[there]))
+
+
+def _goodness(made: Float[np.ndarray, " t"], held: Float[np.ndarray, " t"]) -> GoodnessOfFit:
+    """Whether muscles that make the moments can press as was measured."""
+    most, largest = float(np.abs(made - held).max()), float(np.abs(held).max())
+    what = f"contact held: the measured force is missed by up to {most:.0f} N, which no muscle makes with these moments"
+    doubts = (Doubt(what, False, most / largest),) if most > MISSED * largest else ()
+    return GoodnessOfFit(doubts, ("held contact force",))
 
 
 def _warn(which: str, each: MuscleForces, driven: tuple[str, ...], moments: Float[np.ndarray, "t n"]) -> None:

@@ -317,7 +317,7 @@ def _shear_of(both: ArmAndRecording, channels: Sequence[ComparedChannel]) -> Mea
     if both.friction is None:
         return None
     normal = np.interp(channels[0].time, both.simulated.time, both.simulated.curves[NORMAL])
-    return measured_shear({one.channel: one for one in channels}, normal, both.friction)
+    return measured_shear({one.channel: one for one in channels}, normal, both.friction, both.recorded.curves)
 
 
 def goodness_of(

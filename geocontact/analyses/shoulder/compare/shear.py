@@ -13,7 +13,7 @@ from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.identify.goodness_of_fit import MUCH, Doubt
 from geocontact.io.text.side_table import read_side_table
-from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit
+from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit, noise_of
 from geocontact.shoulder_exoskeleton.beside_recording import ALONG, AROUND, NORMAL, SHEAR, TANGENTIAL, ComparedChannel
 
 NUMBERS, STATIC = "numbers.csv", "mu_s"
@@ -75,7 +75,10 @@ class MeasuredShear:
 
 
 def measured_shear(
-    channels: Mapping[str, ComparedChannel], normal: np.ndarray | None, friction: float
+    channels: Mapping[str, ComparedChannel],
+    normal: np.ndarray | None,
+    friction: float,
+    recorded: Mapping[str, np.ndarray],
 ) -> MeasuredShear | None:
     """None where no shear was measured.
 
@@ -83,12 +86,14 @@ def measured_shear(
     ----------
     normal
         Simulated normal force at the times of the channels [N].
+    recorded
+        Channels at their own times, for their noise [N].
     """
     found = next((channels[name] for name in TANGENTIAL if name in channels), None)
     if found is None or normal is None:
         return None
     measured = channels[NORMAL].measured if NORMAL in channels else normal
-    limit = friction_limit(found.measured, measured, friction)
+    limit = friction_limit(found.measured, measured, friction, noise_of(recorded[found.channel]))
     at = float(found.time[limit.first]) if limit.first >= 0 else float("nan")
     return MeasuredShear(NORMAL in channels, limit, friction_limit(found.model, normal, friction), at)
 
