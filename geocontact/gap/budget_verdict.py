@@ -5,12 +5,16 @@ shares of all channels in units of their floors:
 
     explained          stays so where what is surely missed beside it is at most `LEFT_OVER` of both together
     partly_explained   an effect is sure, and more than that is surely missed beside it
-    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, and nothing is sure
-    no_gap             what is unexplained is less than that in every channel, as stated noise has it
+    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, or a channel's error is more
+                       than `FLOORS` times its floor, and nothing is sure
+    no_gap             neither; an unknown gap, too, where stated noise and variation leave less than `WORTH_NAMING` of
+                       every channel unexplained
 
 What is named and surely takes less than `WORTH_NAMING` of every channel is not named: it is
 detected (`gap.detected`). Something *surely missed* repeats from trial to
-trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides.
+trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides, with
+shares as estimated: levels of noise are known to a factor, so that the interval of what is unexplained reaches beyond
+`WORTH_NAMING` even where all error is noise as stated.
 
 An effect beside which something remains is *sure* where no rule speaks against it, its gain is `SURE` beyond that of
 every other effect by the tolerance that forms have, it takes more than what is missed then, and all trials have it to
@@ -41,32 +45,38 @@ from geocontact.gap.selection.verdict import Answer
 Budget = Mapping[str, ChannelBudget]
 ODD = 0.999
 """Probability of less scatter of an amplitude between trials than makes it another effect."""
+FLOORS = 2.0
+"""Times its floor, noise and variation, that the error of a channel with no gap may be."""
 
 
-def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float]:
-    """What is named takes, and what is surely missed beside it, of all channels in squares of their floors."""
-    count, takes, missed = len(problem.calibration.trials), 0.0, 0.0
+def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float, float]:
+    """What is named takes, what is surely missed beside it, and what is unexplained, missed or not.
+
+    Of all channels, in squares of their floors.
+    """
+    count, found = len(problem.calibration.trials), np.zeros(3)
     for c, name in enumerate(problem.system.outputs):
         if name in budget:
             size = sum(float((part[:, c] ** 2).sum()) for part in errors.before[count:]) / float(problem.floor[c]) ** 2
-            takes += size * budget[name].parts["effects"].share
-            missed += size * budget[name].missed
-    return takes, missed
+            parts, missed = budget[name].parts, budget[name].missed
+            found += size * np.array([parts["effects"].share, missed, max(parts["unexplained"].share, missed)])
+    return float(found[0]), float(found[1]), float(found[2])
 
 
 def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Answer:
     """The answer as the budget of its own model has it; see the module."""
     said = found.answer
     sure = any(one.missed >= WORTH_NAMING for one in budget.values())
+    gap = sure or any(one.floor < FLOORS**-2 for one in budget.values())
     if said.effects and found.data_error is None and takes_little(budget):
-        return _unnamed(found, sure)
+        return _unnamed(found, gap)
     if said.effects:
-        takes, missed = totals(budget, errors, found.problem)
+        takes, missed, _ = totals(budget, errors, found.problem)
         much = sure and missed > LEFT_OVER * (takes + missed)
         return replace(said, verdict="partly_explained") if much else said
-    if said.verdict == "no_gap" and sure:
+    if said.verdict == "no_gap" and gap:
         return _moved(said, "none", "unknown", "unknown")
-    if said.verdict == "unknown" and not sure and closed(found, budget):
+    if said.verdict == "unknown" and not gap and closed(found, budget):
         return _moved(said, "unknown", "none", "no_gap")
     return said
 
@@ -76,20 +86,25 @@ def takes_little(budget: Budget) -> bool:
     return all(one.parts["effects"].ci95[1] < WORTH_NAMING for one in budget.values())
 
 
-def _unnamed(found: Attribution, sure: bool) -> Answer:
-    """Nothing named: no gap, or unknown where something is surely missed; it has the effects' probability."""
-    said, instead = found.answer, "unknown" if sure else "none"
+def _unnamed(found: Attribution, gap: bool) -> Answer:
+    """Nothing named: no gap, or unknown where there is one; it has the effects' probability."""
+    said, instead = found.answer, "unknown" if gap else "none"
     moved = sum(said.probabilities.get(name, 0.0) for name in said.effects)
     odds = {**said.probabilities, **dict.fromkeys(said.effects, 0.0)}
     odds[instead] = odds.get(instead, 0.0) + moved
     odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
-    return Answer("unknown" if sure else "no_gap", (), odds, said.ambiguity, found.base)
+    return Answer("unknown" if gap else "no_gap", (), odds, said.ambiguity, found.base)
 
 
 def closed(found: Attribution, budget: Budget) -> bool:
-    """Whether stated noise of every channel, and what trials vary by, leave next to nothing of its squared error."""
-    return set(budget) <= set(found.stated) and all(
-        one.parts["unexplained"].share < WORTH_NAMING for one in budget.values()
+    """Whether stated noise of every channel, and what trials vary by, leave next to nothing of its squared error.
+
+    As estimated; not where no channel has a budget.
+    """
+    return (
+        bool(budget)
+        and set(budget) <= set(found.stated)
+        and all(one.parts["unexplained"].share < WORTH_NAMING for one in budget.values())
     )
 
 
@@ -132,14 +147,17 @@ def sure_beside(found: Attribution, one: Contender) -> bool:
     return ahead > SURE * (1.0 + SLIGHT * gain) and steady(found, one)
 
 
-def named_in_part(said: Answer, one: Contender) -> Answer:
-    """Partly explained by a model: its effects share half of what was stated of anything unknown."""
-    half = 0.5 * said.probabilities.get("unknown", 0.0)
-    odds = {**said.probabilities, "unknown": half}
+def named_beside(said: Answer, one: Contender, remains: bool) -> Answer:
+    """A model named where the evidence has the gap unknown, partly explained where something remains.
+
+    Its effects share half of what was stated of anything unknown then, else all of it.
+    """
+    moved = (0.5 if remains else 1.0) * said.probabilities.get("unknown", 0.0)
+    odds = {**said.probabilities, "unknown": said.probabilities.get("unknown", 0.0) - moved}
     for name in one.names:
-        odds[name] = odds.get(name, 0.0) + half / len(one.names)
+        odds[name] = odds.get(name, 0.0) + moved / len(one.names)
     odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
-    return Answer("partly_explained", one.names, odds, one.names, one)
+    return Answer("partly_explained" if remains else "explained", one.names, odds, one.names, one)
 
 
 def steady(found: Attribution, one: Contender) -> bool:
