@@ -4,9 +4,10 @@ Evidence says which effect, the budget whether there is anything to explain and 
 shares of all channels in units of their floors:
 
     explained          stays so where what is surely missed beside it is at most `LEFT_OVER` of both together
-    partly_explained   an effect is sure, and more than that is surely missed beside it
-    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, or a channel's error is more
-                       than `FLOORS` times its floor, and nothing is sure
+    partly_explained   an effect is sure, and more than that is surely missed beside it, or a channel is surely
+                       predicted worse with it, by `WORTH_NAMING` of its squared error
+    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, or its error is more than
+                       `FLOORS` times its floor, and nothing is sure
     no_gap             neither; an unknown gap, too, where stated noise and variation leave less than `WORTH_NAMING` of
                        every channel unexplained
 
@@ -73,7 +74,7 @@ def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Ans
     if said.effects:
         takes, missed, _ = totals(budget, errors, found.problem)
         much = sure and missed > LEFT_OVER * (takes + missed)
-        return replace(said, verdict="partly_explained") if much else said
+        return replace(said, verdict="partly_explained") if much or grows(budget) else said
     if said.verdict == "no_gap" and gap:
         return _moved(said, "none", "unknown", "unknown")
     if said.verdict == "unknown" and not gap and closed(found, budget):
@@ -84,6 +85,11 @@ def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Ans
 def takes_little(budget: Budget) -> bool:
     """Whether what is named surely takes less than `WORTH_NAMING` of the squared error of every channel."""
     return all(one.parts["effects"].ci95[1] < WORTH_NAMING for one in budget.values())
+
+
+def grows(budget: Budget) -> bool:
+    """Whether the squared error of a channel is surely larger with what is named, by `WORTH_NAMING`."""
+    return any(e.ci95[1] < 0.0 and e.share <= -WORTH_NAMING for e in (one.parts["effects"] for one in budget.values()))
 
 
 def _unnamed(found: Attribution, gap: bool) -> Answer:
@@ -141,10 +147,14 @@ def partial(found: Attribution) -> tuple[Contender, Partial] | None:
 
 def sure_beside(found: Attribution, one: Contender) -> bool:
     """Whether a model is the only one of its kind, and all trials have its effects to the same amplitude."""
-    gain = one.nats - found.base.nats
+    return leads(found, one) and steady(found, one)
+
+
+def leads(found: Attribution, one: Contender) -> bool:
+    """Whether a model gains surely more than the base and every model of other effects."""
     others = [each.nats for each in found.contenders if not set(each.names) & set(one.names)]
     ahead = one.nats - max([found.base.nats, *others])
-    return ahead > SURE * (1.0 + SLIGHT * gain) and steady(found, one)
+    return ahead > SURE * (1.0 + SLIGHT * (one.nats - found.base.nats))
 
 
 def named_beside(said: Answer, one: Contender, remains: bool) -> Answer:

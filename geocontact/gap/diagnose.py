@@ -26,7 +26,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
-from geocontact.gap.budget_verdict import by_budget, named_beside, partial, sure_beside, totals
+from geocontact.gap.budget_verdict import by_budget, grows, named_beside, partial, sure_beside, totals
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
@@ -214,7 +214,7 @@ def budgeted(
         of_closer = errors_of(closer)
         own = _budget(closer, of_closer)
         takes, missed, unexplained = totals(own, of_closer, found.problem)
-        if unexplained <= LEFT_OVER * (takes + unexplained):
+        if unexplained <= LEFT_OVER * (takes + unexplained) and not grows(own):
             closer = replace(found, answer=named_beside(found.answer, best[0], False))
         if takes > missed:
             return closer, of_closer, own, None

@@ -102,7 +102,18 @@ def test_what_surely_takes_less_than_a_tenth_is_not_named() -> None:
     assert (little.verdict, little.effects, little.chosen) == ("no_gap", (), found.base)
     assert little.probabilities["damping"] == 0.0 and little.probabilities["none"] == 0.8
     assert verdict(found, errors, channel(0.09, 0.5, 0.4)).verdict == "unknown"
-    assert verdict(found, errors, channel(0.11, 0.0, 0.0), channel(-0.2, 0.0, 0.0)).verdict == "explained"
+    assert verdict(found, errors, channel(0.11, 0.0, 0.0), channel(-0.2, 0.0, 0.0)).effects == ("damping",)
+
+
+def test_a_channel_that_is_predicted_worse_leaves_a_part() -> None:
+    """An effect that takes much of one channel and makes another worse, for sure and by a tenth, is not all of it."""
+    found, errors = given("explained", "damping")
+    force = channel(0.9, 0.0, 0.0)
+    worse = channel(-0.6, 0.0, 0.0)
+    assert verdict(found, errors, force, channel(-0.05, 0.0, 0.0)).verdict == "explained"
+    assert verdict(found, errors, force, worse).verdict == "partly_explained"
+    doubtful = worse.parts | {"effects": BudgetPart(-0.6, (-1.0, 0.1))}
+    assert verdict(found, errors, force, ChannelBudget(doubtful, 0.0)).verdict == "explained"
 
 
 def test_what_is_explained_in_part_takes_half_of_unknown() -> None:

@@ -138,7 +138,7 @@ def budget_bars(findings: Findings) -> list[BudgetBar]:
 
 
 def budget_words(findings: Findings) -> list[str]:
-    """What the error of each channel consists of, as root mean squares, and where the unexplained is if nothing is named."""
+    """What the error of each channel consists of, as root mean squares; where it is unexplained if nothing is named."""
     said, d = [], findings.diagnosis
     nothing = not any(trial.named is not None for trial in findings.held_out)  # else `where` is where the effect acts
     where = {w.channel: w.phase for w in d.where} if nothing else {}
