@@ -7,7 +7,7 @@ shares of all channels in units of their floors:
     partly_explained   an effect is sure, and more than that is surely missed beside it, or a channel is surely
                        predicted worse with it, by `WORTH_NAMING` of its squared error
     unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, or its error is more than
-                       `FLOORS` times its floor, and nothing is sure
+                       twice its floor, and nothing is sure
     no_gap             neither; an unknown gap, too, where stated noise and variation leave less than `WORTH_NAMING` of
                        every channel unexplained
 
@@ -18,9 +18,9 @@ shares as estimated: levels of noise are known to a factor, so that the interval
 `WORTH_NAMING` even where all error is noise as stated.
 
 An effect beside which something remains is *sure* where no rule speaks against it, its gain is `SURE` beyond that of
-every other effect by the tolerance that forms have, it takes more than what is missed then, and all trials have it to
-the same amplitude: one whose law depends on the rate, as what is missed does not, has more of it in fast trials than in
-slow ones.
+every other effect by the tolerance that forms have, it takes more than what is missed then, and its amplitude scatters
+between trials no more than chance has it. That scatter is not compared with rates: a law that depends on the rate where
+it should not shows in trials of different rates only.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from geocontact.data.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import block_edges
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, TWOFOLD, WORTH_NAMING
 from geocontact.gap.reduction.error_budget import ChannelBudget
 from geocontact.gap.reduction.error_reduction import error_reduction
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
@@ -46,8 +46,6 @@ from geocontact.gap.selection.verdict import Answer
 Budget = Mapping[str, ChannelBudget]
 ODD = 0.999
 """Probability of less scatter of an amplitude between trials than makes it another effect."""
-FLOORS = 2.0
-"""Times its floor, noise and variation, that the error of a channel with no gap may be."""
 
 
 def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float, float]:
@@ -68,7 +66,7 @@ def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Ans
     """The answer as the budget of its own model has it; see the module."""
     said = found.answer
     sure = any(one.missed >= WORTH_NAMING for one in budget.values())
-    gap = sure or any(one.floor < FLOORS**-2 for one in budget.values())
+    gap = sure or any(one.floor < np.exp(-2.0 * TWOFOLD) for one in budget.values())
     if said.effects and found.data_error is None and takes_little(budget):
         return _unnamed(found, gap)
     if said.effects:
