@@ -53,13 +53,16 @@ def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[fl
 
     Of all channels, in squares of their floors.
     """
-    count, found = len(problem.calibration.trials), np.zeros(3)
+    count = len(problem.calibration.trials)
+    takes = missed = unexplained = 0.0
     for c, name in enumerate(problem.system.outputs):
         if name in budget:
             size = sum(float((part[:, c] ** 2).sum()) for part in errors.before[count:]) / float(problem.floor[c]) ** 2
-            parts, missed = budget[name].parts, budget[name].missed
-            found += size * np.array([parts["effects"].share, missed, max(parts["unexplained"].share, missed)])
-    return float(found[0]), float(found[1]), float(found[2])
+            one = budget[name]
+            takes += size * one.parts["effects"].share
+            missed += size * one.missed
+            unexplained += size * max(one.parts["unexplained"].share, one.missed)
+    return takes, missed, unexplained
 
 
 def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Answer:

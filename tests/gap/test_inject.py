@@ -162,7 +162,9 @@ def test_names_are_those_of_candidates() -> None:
     assert chosen(offered, "damping").name == "damping"
     with pytest.raises(ValueError, match=r"unit_error has variants; choose one of unit_error\.force"):
         chosen(offered, "unit_error")
-    with pytest.raises(ValueError, match=r"'rust' is not an effect of this system; there are time_shift, filter_lag"):
+    with pytest.raises(
+        ValueError, match=r"'rust' is not an effect of this system; there are time_shift, clock_slip, filter_lag"
+    ):
         chosen(offered, "rust")
 
 
