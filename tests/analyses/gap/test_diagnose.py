@@ -120,6 +120,7 @@ def test_stages_are_told_as_they_begin(found: DiagnoseResult) -> None:
             "whatever else it may be",
             "whether held-out trials are predicted better",
             "residuals",
+            "what the error consists of",
             "what would be invisible",
             "what is one law with it",
             "the experiment to run next",
