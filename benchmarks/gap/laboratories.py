@@ -39,6 +39,7 @@ WORDS = {
     "pair_one": "– one right",
     "pair_no_wrong": "– no wrong name",
     "strange_unknown": "outside the table, 5 % and more: unknown or explained in part",
+    "strange_wrong": "outside the table or nothing missing: something named",
     "budget_inside": "shares of effects inside ci95, where named right",
     "budget_closed": "budgets that close to 1 ± 0.02",
     "ahead": "visible singles that are ahead by 3 nats",

@@ -78,6 +78,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
     from geocontact.effects.catalogue import candidates
     from geocontact.gap.attribute import attribute
     from geocontact.gap.case.admission import admitted
+    from geocontact.gap.selection.verdict import with_lapses
     from geocontact.io.cases.gap_case import read_gap_case
     from geocontact.systems.catalogue import system_of
 
@@ -85,7 +86,7 @@ def answer_of(folder: Path) -> dict[str, Any]:
         began, case = time.process_time(), read_gap_case(folder)
         system = system_of(case)
         found = attribute(admitted(case, system), system, candidates)
-        said, most = found.answer, max(found.contenders, key=lambda one: one.nats)
+        said, most = with_lapses(found.answer, found.offered), max(found.contenders, key=lambda one: one.nats)
         answer = {
             "verdict": said.verdict,
             "effects": said.effects,

@@ -32,7 +32,6 @@ from geocontact.gap.selection.verdict import (
     borne_out,
     most_of,
     ranking,
-    with_lapses,
     with_mistake,
     with_refused,
 )
@@ -76,11 +75,13 @@ class Attribution:
     flat
         Channels whose recordings end at a level.
     answer
-        The verdict.
+        The verdict, its probabilities as computed: what is stated allows for lapses (`selection.verdict`).
     heavy
         Channels whose noise has heavy tails, in which samples and stretches have weights.
     stated
         Standard deviation of the noise of channels, in their units, as the case states it.
+    offered
+        Effects that were weighed.
     """
 
     problem: Problem
@@ -96,6 +97,7 @@ class Attribution:
     answer: Answer
     heavy: Mapping[str, StudentNoise] = field(default_factory=dict)
     stated: Mapping[str, float] = field(default_factory=dict)
+    offered: tuple[str, ...] = ()
 
 
 def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
@@ -224,7 +226,6 @@ def _answered(
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)
-    said = with_lapses(said, (one.name for one in contest.entered))
     return Attribution(
         problem,
         data_error,
@@ -237,6 +238,7 @@ def _answered(
         objections,
         contest.flat,
         said,
+        offered=tuple(dict.fromkeys(one.name for one in contest.entered)),
     )
 
 

@@ -4,18 +4,23 @@ Evidence says which effect, the budget whether there is anything to explain and 
 shares of all channels in units of their floors:
 
     explained          stays so where what is surely missed beside it is at most `LEFT_OVER` of both together
-    partly_explained   an effect is sure, and more than that is surely missed beside it
-    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, and nothing is sure
-    no_gap             what is unexplained is less than that in every channel, as stated noise has it
+    partly_explained   an effect is sure, and more than that is surely missed beside it, or a channel is surely
+                       predicted worse with it, by `WORTH_NAMING` of its squared error
+    unknown            at least `WORTH_NAMING` of a channel's squared error is surely missed, or its error is more than
+                       twice its floor, and nothing is sure
+    no_gap             neither; an unknown gap, too, where stated noise and variation leave less than `WORTH_NAMING` of
+                       every channel unexplained
 
 What is named and surely takes less than `WORTH_NAMING` of every channel is not named: it is
 detected (`gap.detected`). Something *surely missed* repeats from trial to
-trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides.
+trial, or is shared by neighbours in time far beyond stated noise. Between sure and nothing the evidence decides, with
+shares as estimated: levels of noise are known to a factor, so that the interval of what is unexplained reaches beyond
+`WORTH_NAMING` even where all error is noise as stated.
 
 An effect beside which something remains is *sure* where no rule speaks against it, its gain is `SURE` beyond that of
-every other effect by the tolerance that forms have, it takes more than what is missed then, and all trials have it to
-the same amplitude: one whose law depends on the rate, as what is missed does not, has more of it in fast trials than in
-slow ones.
+every other effect by the tolerance that forms have, it takes more than what is missed then, and its amplitude scatters
+between trials no more than chance has it. That scatter is not compared with rates: a law that depends on the rate where
+it should not shows in trials of different rates only.
 """
 
 from __future__ import annotations
@@ -30,7 +35,7 @@ from geocontact.data.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import block_edges
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, WORTH_NAMING
+from geocontact.gap.levels import LEFT_OVER, SLIGHT, SURE, TWOFOLD, WORTH_NAMING
 from geocontact.gap.reduction.error_budget import ChannelBudget
 from geocontact.gap.reduction.error_reduction import error_reduction
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
@@ -43,30 +48,37 @@ ODD = 0.999
 """Probability of less scatter of an amplitude between trials than makes it another effect."""
 
 
-def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float]:
-    """What is named takes, and what is surely missed beside it, of all channels in squares of their floors."""
-    count, takes, missed = len(problem.calibration.trials), 0.0, 0.0
+def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float, float]:
+    """What is named takes, what is surely missed beside it, and what is unexplained, missed or not.
+
+    Of all channels, in squares of their floors.
+    """
+    count = len(problem.calibration.trials)
+    takes = missed = unexplained = 0.0
     for c, name in enumerate(problem.system.outputs):
         if name in budget:
             size = sum(float((part[:, c] ** 2).sum()) for part in errors.before[count:]) / float(problem.floor[c]) ** 2
-            takes += size * budget[name].parts["effects"].share
-            missed += size * budget[name].missed
-    return takes, missed
+            one = budget[name]
+            takes += size * one.parts["effects"].share
+            missed += size * one.missed
+            unexplained += size * max(one.parts["unexplained"].share, one.missed)
+    return takes, missed, unexplained
 
 
 def by_budget(found: Attribution, budget: Budget, errors: RawInputErrors) -> Answer:
     """The answer as the budget of its own model has it; see the module."""
     said = found.answer
     sure = any(one.missed >= WORTH_NAMING for one in budget.values())
+    gap = sure or any(one.floor < np.exp(-2.0 * TWOFOLD) for one in budget.values())
     if said.effects and found.data_error is None and takes_little(budget):
-        return _unnamed(found, sure)
+        return _unnamed(found, gap)
     if said.effects:
-        takes, missed = totals(budget, errors, found.problem)
+        takes, missed, _ = totals(budget, errors, found.problem)
         much = sure and missed > LEFT_OVER * (takes + missed)
-        return replace(said, verdict="partly_explained") if much else said
-    if said.verdict == "no_gap" and sure:
+        return replace(said, verdict="partly_explained") if much or grows(budget) else said
+    if said.verdict == "no_gap" and gap:
         return _moved(said, "none", "unknown", "unknown")
-    if said.verdict == "unknown" and not sure and closed(found, budget):
+    if said.verdict == "unknown" and not gap and closed(found, budget):
         return _moved(said, "unknown", "none", "no_gap")
     return said
 
@@ -76,20 +88,30 @@ def takes_little(budget: Budget) -> bool:
     return all(one.parts["effects"].ci95[1] < WORTH_NAMING for one in budget.values())
 
 
-def _unnamed(found: Attribution, sure: bool) -> Answer:
-    """Nothing named: no gap, or unknown where something is surely missed; it has the effects' probability."""
-    said, instead = found.answer, "unknown" if sure else "none"
+def grows(budget: Budget) -> bool:
+    """Whether the squared error of a channel is surely larger with what is named, by `WORTH_NAMING`."""
+    return any(e.ci95[1] < 0.0 and e.share <= -WORTH_NAMING for e in (one.parts["effects"] for one in budget.values()))
+
+
+def _unnamed(found: Attribution, gap: bool) -> Answer:
+    """Nothing named: no gap, or unknown where there is one; it has the effects' probability."""
+    said, instead = found.answer, "unknown" if gap else "none"
     moved = sum(said.probabilities.get(name, 0.0) for name in said.effects)
     odds = {**said.probabilities, **dict.fromkeys(said.effects, 0.0)}
     odds[instead] = odds.get(instead, 0.0) + moved
     odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
-    return Answer("unknown" if sure else "no_gap", (), odds, said.ambiguity, found.base)
+    return Answer("unknown" if gap else "no_gap", (), odds, said.ambiguity, found.base)
 
 
 def closed(found: Attribution, budget: Budget) -> bool:
-    """Whether stated noise of every channel, and what trials vary by, leave next to nothing of its squared error."""
-    return set(budget) <= set(found.stated) and all(
-        one.parts["unexplained"].share < WORTH_NAMING for one in budget.values()
+    """Whether stated noise of every channel, and what trials vary by, leave next to nothing of its squared error.
+
+    As estimated; not where no channel has a budget.
+    """
+    return (
+        bool(budget)
+        and set(budget) <= set(found.stated)
+        and all(one.parts["unexplained"].share < WORTH_NAMING for one in budget.values())
     )
 
 
@@ -126,20 +148,27 @@ def partial(found: Attribution) -> tuple[Contender, Partial] | None:
 
 def sure_beside(found: Attribution, one: Contender) -> bool:
     """Whether a model is the only one of its kind, and all trials have its effects to the same amplitude."""
-    gain = one.nats - found.base.nats
+    return leads(found, one) and steady(found, one)
+
+
+def leads(found: Attribution, one: Contender) -> bool:
+    """Whether a model gains surely more than the base and every model of other effects."""
     others = [each.nats for each in found.contenders if not set(each.names) & set(one.names)]
     ahead = one.nats - max([found.base.nats, *others])
-    return ahead > SURE * (1.0 + SLIGHT * gain) and steady(found, one)
+    return ahead > SURE * (1.0 + SLIGHT * (one.nats - found.base.nats))
 
 
-def named_in_part(said: Answer, one: Contender) -> Answer:
-    """Partly explained by a model: its effects share half of what was stated of anything unknown."""
-    half = 0.5 * said.probabilities.get("unknown", 0.0)
-    odds = {**said.probabilities, "unknown": half}
+def named_beside(said: Answer, one: Contender, remains: bool) -> Answer:
+    """A model named where the evidence has the gap unknown, partly explained where something remains.
+
+    Its effects share half of what was stated of anything unknown then, else all of it.
+    """
+    moved = (0.5 if remains else 1.0) * said.probabilities.get("unknown", 0.0)
+    odds = {**said.probabilities, "unknown": said.probabilities.get("unknown", 0.0) - moved}
     for name in one.names:
-        odds[name] = odds.get(name, 0.0) + half / len(one.names)
+        odds[name] = odds.get(name, 0.0) + moved / len(one.names)
     odds = dict(sorted(odds.items(), key=lambda each: -each[1]))
-    return Answer("partly_explained", one.names, odds, one.names, one)
+    return Answer("partly_explained" if remains else "explained", one.names, odds, one.names, one)
 
 
 def steady(found: Attribution, one: Contender) -> bool:

@@ -3,6 +3,7 @@
 An effect is detected where its evidence over the model without it is `SURE` after the tolerance that forms have, and
 no rule speaks against it but that it takes too little (`gap.selection.held_out_rules`). Those that are named come
 first, each beside the other of a pair; where nothing is named, the effect that gains most; then a second one beside it.
+These two are sure where they gain as much more than every other effect in their place.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 
 from geocontact.data.diagnosis import Detected
 from geocontact.gap.attribute import Attribution
+from geocontact.gap.budget_verdict import leads
 from geocontact.gap.case.plain_fit import measured_fit
 from geocontact.gap.data_errors import put_back
 from geocontact.gap.levels import SLIGHT, SURE
@@ -51,7 +53,7 @@ def _sure(found: Attribution) -> list[EffectGain]:
     if not named.candidates:
         singles = [c for c in found.contenders if len(c.candidates) == 1 and _allowed(found, c)]
         best = max(singles, key=lambda c: c.nats, default=base)
-        if best is base or best.nats - base.nats < SURE * (1.0 + SLIGHT * (best.nats - base.nats)):
+        if best is base or not leads(found, best):
             return []
         named = best
     if any(one.somewhere is not None for one in named.candidates):
@@ -63,8 +65,9 @@ def _sure(found: Attribution) -> list[EffectGain]:
     rows = [EffectGain(named.candidates[0].name, named, base)]
     pairs = [c for c in found.contenders if len(c.candidates) == 2 and named.candidates[0] in c.candidates]
     both = max((c for c in pairs if _allowed(found, c)), key=lambda c: c.nats, default=named)
-    if both.nats - named.nats > SURE * (1.0 + SLIGHT * (both.nats - base.nats)):
-        other = next(one for one in both.candidates if one != named.candidates[0])
+    other = next((one for one in both.candidates if one != named.candidates[0]), None)
+    rivals = [c.nats for c in pairs if other is not None and all(one.name != other.name for one in c.candidates)]
+    if other is not None and both.nats - max([named.nats, *rivals]) > SURE * (1.0 + SLIGHT * (both.nats - base.nats)):
         rows.append(EffectGain(other.name, both, named))
     return rows
 

@@ -26,7 +26,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
-from geocontact.gap.budget_verdict import by_budget, named_in_part, partial, sure_beside, totals
+from geocontact.gap.budget_verdict import by_budget, grows, named_beside, partial, sure_beside, totals
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
@@ -35,7 +35,7 @@ from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.held_out_growth import confirmed, errors_of
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.identifiability.separability import one_law
-from geocontact.gap.levels import SURE, WORTH_NAMING
+from geocontact.gap.levels import LEFT_OVER, SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
 from geocontact.gap.reduction.error_budget import ChannelBudget, error_budget
@@ -49,7 +49,7 @@ from geocontact.gap.reduction.error_reduction import (
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
-from geocontact.gap.selection.verdict import Answer
+from geocontact.gap.selection.verdict import Answer, with_lapses
 from geocontact.identify.intervals.quantile_intervals import ENDS
 
 
@@ -136,6 +136,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     found, errors = confirmed(case, found, at)
     at("what the error consists of")
     found, errors, budget, part = budgeted(found, errors)
+    found = replace(found, answer=with_lapses(found.answer, found.offered))
     said, problem = found.answer, found.problem
     named = is_named(said)
     chosen = said.chosen.judged
@@ -209,10 +210,12 @@ def budgeted(
     if best is None:
         return found, errors, budget, None
     if sure_beside(found, best[0]):
-        closer = replace(found, answer=named_in_part(found.answer, best[0]))
+        closer = replace(found, answer=named_beside(found.answer, best[0], True))
         of_closer = errors_of(closer)
         own = _budget(closer, of_closer)
-        takes, missed = totals(own, of_closer, found.problem)
+        takes, missed, unexplained = totals(own, of_closer, found.problem)
+        if unexplained <= LEFT_OVER * (takes + unexplained) and not grows(own):
+            closer = replace(found, answer=named_beside(found.answer, best[0], False))
         if takes > missed:
             return closer, of_closer, own, None
     return found, errors, budget, best[1]

@@ -37,15 +37,18 @@ def _square(size: float, gap: ChannelGap) -> float:
 
 
 def _unnamed(d: Diagnosis) -> Iterable[Doubt]:
-    """Nothing is claimed, so that nothing contradicts; but no model that was tried describes such a channel."""
+    """No effect is claimed that errors could contradict; but no model that was tried describes such a channel."""
     for name, gap in d.gap.items():
-        if d.verdict != "no_gap" and gap.rmse_after > LARGER * gap.noise_floor:
+        if gap.rmse_after > LARGER * gap.noise_floor:
             times = gap.rmse_after / max(gap.noise_floor, 1e-300)
             yield Doubt(f"{name}: residual on held-out trials is {times:.3g} times the noise floor", False, times)
 
 
 def _of_rest(d: Diagnosis) -> Iterable[Doubt]:
-    """What stays of the squared error of all channels together, noise taken off."""
+    """What stays of the squared error of all channels together, noise taken off.
+
+    It contradicts nothing that is named as a part only.
+    """
     before, after = (
         sum(_square(size, gap) for gap, size in ((g, getattr(g, of)) for g in d.gap.values()))
         for of in ("rmse_before", "rmse_after")
@@ -54,7 +57,11 @@ def _of_rest(d: Diagnosis) -> Iterable[Doubt]:
     if before > 0.0 and not noisy and after > LEFT_OVER * before:
         rest = after / before
         far = any(gap.rmse_after > FAR * gap.noise_floor for gap in d.gap.values())
-        yield Doubt(f"{rest:.0%} of the squared error on held-out trials stay", rest >= MUCH and far, rest)
+        yield Doubt(
+            f"{rest:.0%} of the squared error on held-out trials stay",
+            rest >= MUCH and far and d.verdict == "explained",
+            rest,
+        )
 
 
 def _of_main(name: str, gap: ChannelGap) -> Iterable[Doubt]:
@@ -69,7 +76,10 @@ def _of_main(name: str, gap: ChannelGap) -> Iterable[Doubt]:
 
 
 def without_claims(d: Diagnosis, why: str) -> Diagnosis:
-    """The diagnosis with nothing named: unknown, the effects among what is in question, `why` among its remarks."""
+    """The diagnosis with nothing named: unknown, the effects among what is in question, `why` among its remarks.
+
+    Errors are those of the base model; there is no budget, whose parts are of what was named.
+    """
     moved = sum(d.probabilities.get(name, 0.0) for name in d.effects)
     odds = {name: value for name, value in d.probabilities.items() if name not in d.effects}
     odds["unknown"] = odds.get("unknown", 0.0) + moved
@@ -82,6 +92,15 @@ def without_claims(d: Diagnosis, why: str) -> Diagnosis:
         probabilities=dict(sorted(odds.items(), key=lambda each: -each[1])) | dict.fromkeys(d.effects, 0.0),
         ambiguity=rivals,
         remarks=(*d.remarks, remark),
+        where=tuple(replace(one, stage="") for one in d.where),
+        gap={name: _before(gap) for name, gap in d.gap.items()},
         behind={},
         one_law=(),
+        apart={},
+        budget={},
+        detected=(),
     )
+
+
+def _before(gap: ChannelGap) -> ChannelGap:
+    return replace(gap, rmse_after=gap.rmse_before, reduction=0.0, ci95=(0.0, 0.0), unexplained=None)

@@ -1,4 +1,6 @@
-"""No effect is named whose error on held-out trials is larger than that of the base model.
+"""No effect is named whose error on held-out trials, of all channels together, is larger than that of the base model.
+
+A single channel that is surely predicted worse leaves it partly explained (`gap.budget_verdict`).
 
 The rules for effects (`gap.selection.held_out_rules`) do not judge mistakes in the data: trials that have them are not
 predicted. With a mistake undone they are, and the error of what was recorded shows whether it was one. Where it grows,

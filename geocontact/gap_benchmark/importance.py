@@ -4,7 +4,8 @@
 true floor. From `LARGE` on an effect is what somebody gains by a diagnosis, from `SMALL` on it should be detected.
 *Named*: the one effect that is there is named, or one that the diagnosis says these trials cannot distinguish from it;
 *wrong*: something is named that is neither. *Both*, *one right* and *no wrong name* are of pairs. *Unknown or in part*:
-of what has no name in the table. *Inside*: the true share of the squared error that an effect takes lies in its
+of what has no name in the table; *strange wrong*: something is named where nothing is missing, or nothing that has a
+name. *Inside*: the true share of the squared error that an effect takes lies in its
 interval, channel by channel, where what is named is right; *closed*: shares add to 1 ± `CLOSED`.
 """
 
@@ -54,6 +55,7 @@ def by_importance(pairs: Sequence[tuple[Plain, Plain]]) -> dict[str, Rate]:
     small = [(a, b) for a, b, size in one if SMALL <= size < LARGE]
     two = [(a, b) for a, b in pairs if a["kind"] == "pair" and importance(a) >= LARGE]
     strange = [b for a, b in pairs if a["kind"] == "outside" and not a.get("imitated") and importance(a) >= LARGE]
+    unnamed = [(a, b) for a, b in pairs if a["kind"] == "none" or (a["kind"] == "outside" and not a.get("imitated"))]
     return {
         "large_named": Rate.of(named(a, b) for a, b in large),
         "large_wrong": Rate.of(wrong(a, b) for a, b in large),
@@ -62,6 +64,7 @@ def by_importance(pairs: Sequence[tuple[Plain, Plain]]) -> dict[str, Rate]:
         "pair_one": Rate.of(bool(set(a["effects"]) & taken_for(b)) for a, b in two),
         "pair_no_wrong": Rate.of(not wrong(a, b) for a, b in two),
         "strange_unknown": Rate.of(b["verdict"] in ("unknown", "partly_explained") for b in strange),
+        "strange_wrong": Rate.of(wrong(a, b) for a, b in unnamed),
         "budget_inside": Rate.of(held for a, b in pairs for held in _inside(a, b)),
         "budget_closed": Rate.of(closed for _, b in pairs for closed in _closed(b)),
     }

@@ -275,7 +275,7 @@ def score(labels: Mapping[str, Plain], diagnoses: Mapping[str, Plain]) -> Score:
         confidently_wrong=Rate.of(confidently_wrong(a, b) for a, b in pairs),
         both_found=Rate.of(set(a["effects"]) == set(b["effects"]) for a, b in two),
         one_of_two=Rate.of(bool(set(a["effects"]) & set(answers(b))) for a, b in two),
-        unknown_called=Rate.of(b["verdict"] == "unknown" for _, b in strange),
+        unknown_called=Rate.of(b["verdict"] in ("unknown", "partly_explained") for _, b in strange),
         absorbed_recognised=Rate.of(
             b["verdict"] == "no_gap" and set(a["effects"]) <= set(b.get("absorbed", [])) for a, b in of("absorbed")
         ),

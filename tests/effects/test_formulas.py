@@ -81,6 +81,42 @@ def test_a_clock_slips_once_or_runs_at_another_rate() -> None:
     np.testing.assert_allclose(slow[:, 0], want, atol=2e-3 * np.ptp(base))
 
 
+@pytest.mark.parametrize("delay", [0.03, 0.06, 0.2])
+def test_a_late_clock_stops_at_most(delay: float) -> None:
+    """Shares of the trial; a spring that is turned at a steady rate shows which time is read: never an earlier one."""
+    system, trials = EXAMPLES["joint"]
+    time = trials[0].time
+    whole = time[-1] - time[0]
+    turned = recording("t0", time, {"angle": time - time[0]}, **trials[0].covariates)
+    spring = {**system.start, "b": 0.0}
+    values = {"clock_slip.once.delay": delay * whole, "clock_slip.once.when": 0.5}
+    got = candidate("joint", "clock_slip.once").apply(system).simulate(turned, {**spring, **values})[:, 0]
+    base = system.simulate(turned, spring)[:, 0]
+    read = np.interp(got * np.sign(base[-1] - base[0]), np.sort(base * np.sign(base[-1] - base[0])), time)
+    assert np.diff(read).min() > -1e-9 and read[-1] == pytest.approx(time[-1] - delay * whole)
+
+
+def test_play_passes_on_a_rate_where_it_is_carried() -> None:
+    """A damper has the rate of the angle while the play is taken up and none while it rests."""
+    system, trials = EXAMPLES["joint"]
+    angle, damped = trials[0].column("angle"), {**system.start, "b": 2.0}
+    values = {**damped, "play.angle.width": 0.1, "play.angle.start": 0.0}
+    followed = [angle[0]]
+    for value in angle[1:]:
+        followed.append(max(value - 0.05, min(followed[-1], value + 0.05)))
+    rests = np.abs(np.array(followed) - angle) < 0.05 - 1e-9
+    assert 0.1 < rests.mean() < 0.9
+    bare = {**values, "b": 0.0}
+    one = candidate("joint", "play.angle").apply(system)
+    got = (one.simulate(trials[0], values) - one.simulate(trials[0], bare))[:, 0]
+    base = (system.simulate(trials[0], damped) - system.simulate(trials[0], {**damped, "b": 0.0}))[:, 0]
+    np.testing.assert_allclose(got, np.where(rests, 0.0, base), rtol=1e-9, atol=1e-9)
+    slope = 2.0 * np.gradient(np.array(followed), trials[0].time)
+    steady = ~rests & ~np.roll(rests, 1) & ~np.roll(rests, -1)
+    steady[[0, -1]] = False
+    assert np.abs(got - np.sign(got @ base) * np.sign(base @ slope) * slope)[steady].max() < 0.1 * np.ptp(slope)
+
+
 def test_play_is_a_loop_that_does_not_depend_on_rate() -> None:
     """The play operator written as a loop over samples; the same path twice as fast makes the same outputs."""
     system, trials = EXAMPLES["joint"]

@@ -10,7 +10,7 @@ import pytest
 
 from geocontact.data.diagnosis import BudgetPart
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.budget_verdict import amplitude_left, by_budget, differ, named_in_part, totals
+from geocontact.gap.budget_verdict import amplitude_left, by_budget, closed, differ, named_beside, totals
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.levels import LEFT_OVER, WORTH_NAMING
 from geocontact.gap.reduction.error_budget import ChannelBudget
@@ -55,6 +55,21 @@ def test_no_gap_that_surely_misses_a_tenth_is_unknown() -> None:
     assert verdict(found, errors, channel(0.0, 0.0, 0.0), channel(0.0, 0.5, 0.4)).verdict == "unknown"
 
 
+def test_an_error_of_more_than_twice_its_floor_is_no_no_gap() -> None:
+    """White noise of three times what is stated: 1/9 of its square is the floor, and nothing is surely missed."""
+    found, errors = given("no_gap")
+    assert verdict(found, errors, channel(0.0, 8.0 / 9.0, 0.0)).verdict == "unknown"
+    assert verdict(found, errors, channel(0.0, 0.74, 0.0)).verdict == "no_gap"
+    found, errors = given("explained", "damping")
+    said = verdict(found, errors, channel(0.05, 0.8, 0.0))
+    assert said.verdict == "unknown" and said.effects == ()
+
+
+def test_no_budget_closes_nothing() -> None:
+    found, errors = given("unknown")
+    assert not closed(found, {}) and by_budget(found, {}, errors).verdict == "unknown"
+
+
 def test_unknown_whose_budget_closes_is_no_gap_where_all_noise_is_stated() -> None:
     found, errors = given("unknown")
     said = verdict(found, errors, channel(0.0, 0.09, 0.0))
@@ -69,7 +84,7 @@ def test_channels_count_in_units_of_their_floors() -> None:
     """Squares of 100 and 1: what the second channel misses beside the first makes no difference."""
     found, errors = given("explained", "damping")
     budget = {"force": channel(0.6, 0.2, 0.1), "moment": channel(0.0, 0.9, 0.9)}
-    assert totals(budget, errors, found.problem) == pytest.approx((60.0, 10.0 + 0.9))
+    assert totals(budget, errors, found.problem) == pytest.approx((60.0, 10.0 + 0.9, 20.0 + 0.9))
 
 
 @pytest.mark.parametrize("share", [0.99, 1.01])
@@ -87,14 +102,29 @@ def test_what_surely_takes_less_than_a_tenth_is_not_named() -> None:
     assert (little.verdict, little.effects, little.chosen) == ("no_gap", (), found.base)
     assert little.probabilities["damping"] == 0.0 and little.probabilities["none"] == 0.8
     assert verdict(found, errors, channel(0.09, 0.5, 0.4)).verdict == "unknown"
-    assert verdict(found, errors, channel(0.11, 0.0, 0.0), channel(-0.2, 0.0, 0.0)).verdict == "explained"
+    assert verdict(found, errors, channel(0.11, 0.0, 0.0), channel(-0.2, 0.0, 0.0)).effects == ("damping",)
+
+
+def test_a_channel_that_is_predicted_worse_leaves_a_part() -> None:
+    """An effect that takes much of one channel and makes another worse, for sure and by a tenth, is not all of it."""
+    found, errors = given("explained", "damping")
+    force = channel(0.9, 0.0, 0.0)
+    worse = channel(-0.6, 0.0, 0.0)
+    assert verdict(found, errors, force, channel(-0.05, 0.0, 0.0)).verdict == "explained"
+    assert verdict(found, errors, force, worse).verdict == "partly_explained"
+    doubtful = worse.parts | {"effects": BudgetPart(-0.6, (-1.0, 0.1))}
+    assert verdict(found, errors, force, ChannelBudget(doubtful, 0.0)).verdict == "explained"
 
 
 def test_what_is_explained_in_part_takes_half_of_unknown() -> None:
     one = contender(50.0, "damping")
-    said = named_in_part(Answer("unknown", (), ODDS, (), contender(0.0)), one)
+    unknown = Answer("unknown", (), ODDS, (), contender(0.0))
+    said = named_beside(unknown, one, True)
     assert said.verdict == "partly_explained" and said.effects == ("damping",) and said.chosen is one
     assert said.probabilities == pytest.approx({"none": 0.5, "damping": 0.4, "unknown": 0.1})
+    whole = named_beside(unknown, one, False)
+    assert whole.verdict == "explained" and whole.effects == ("damping",)
+    assert whole.probabilities == pytest.approx({"none": 0.5, "damping": 0.5, "unknown": 0.0})
 
 
 def test_an_amplitude_that_grows_with_the_rate_is_another_effect() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -45,10 +46,15 @@ def test_more_to_explain_needs_more_and_more_evidence_gives_more() -> None:
     assert all(low < high for low, high in pairwise(shares)) and shares[-1] > 0.99
 
 
-def test_the_hardest_of_several_decides() -> None:
-    easy, hard = Outlook(1.0, [0.0], [50.0]), Outlook(1.0, [0.0], [5.0])
-    both = Outlook(1.0, [0.0, 0.0], [50.0, 5.0])
-    assert share_told_apart([both], 0.0) == share_told_apart([hard], 0.0) < share_told_apart([easy], 0.0)
+def test_of_several_no_more_is_promised_than_they_allow() -> None:
+    """Two that are ruled out in 60 % of repetitions each are both ruled out in 20 to 60 % of them."""
+    nats = 6.0
+    lead = margin(0.0) - nats + NormalDist().inv_cdf(0.6) * np.sqrt(2.0 * nats)
+    assert share_told_apart([Outlook(1.0, [lead], [nats])], 0.0) == pytest.approx(0.6)
+    assert share_told_apart([Outlook(1.0, [lead, lead], [nats, nats])], 0.0) == pytest.approx(0.2)
+    assert share_told_apart([Outlook(1.0, [lead] * 3, [nats] * 3)], 0.0) == 0.0
+    both, hard = Outlook(1.0, [0.0, 0.0], [500.0, 5.0]), Outlook(1.0, [0.0], [5.0])
+    assert share_told_apart([both], 0.0) == pytest.approx(share_told_apart([hard], 0.0))
 
 
 def test_without_probabilities_all_weigh_the_same() -> None:

@@ -6,7 +6,8 @@ simulations and rates are those of the full recording. Within a stretch every sa
 levels at which a sensor clips and held samples are as they were recorded.
 
 Stretches begin at a low-discrepancy sequence within equal parts of a trial (multiples of the golden section, Kuipers &
-Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only.
+Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only;
+from trial to trial it goes on. A trial of hardly more than a stretch stays whole.
 """
 
 from __future__ import annotations
@@ -26,8 +27,7 @@ from geocontact.data.trial import Trial
 ROWS = 8_400
 """Measured samples of all outputs and trials that a diagnosis uses."""
 STRETCH = 60
-"""Samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
-FEWEST_STRETCHES = 3
+"""Measured samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
@@ -39,6 +39,8 @@ def read_thinned(folder: Path, run_simulator: bool) -> CaseWithModel:
     if case is given.case:
         return given
     rows, used = measured_rows(given.case, outputs), measured_rows(case, outputs)
+    if used == rows:
+        return given
     where = f"in stretches of {STRETCH} that lie evenly over every trial"
     reserve(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
     return replace(given, case=case)
@@ -51,15 +53,18 @@ def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
         return case
     share = ROWS / rows
 
-    def fewer(trial: Trial) -> Trial:
-        used = stretches(len(trial), share)
+    def fewer(number: int, trial: Trial) -> Trial:
+        most = max(int(np.isfinite(trial.column(name)).sum()) for name in outputs)
+        used = stretches(len(trial), share, round(STRETCH * len(trial) / max(most, 1)), number)
         values = trial.signals.values.copy()
         columns = [trial.signals.channels.index(name) for name in outputs]
         for column in columns:
             values[~used, column] = np.nan
         return replace(trial, signals=replace(trial.signals, values=values))
 
-    return replace(case, calibration=tuple(map(fewer, case.calibration)), evaluation=tuple(map(fewer, case.evaluation)))
+    fitted = len(case.calibration)
+    trials = tuple(fewer(k, one) for k, one in enumerate((*case.calibration, *case.evaluation)))
+    return replace(case, calibration=trials[:fitted], evaluation=trials[fitted:])
 
 
 def measured_rows(case: GapCase, outputs: Sequence[str]) -> int:
@@ -68,14 +73,22 @@ def measured_rows(case: GapCase, outputs: Sequence[str]) -> int:
     return sum(int(np.isfinite(trial.column(name)).sum()) for trial in trials for name in outputs)
 
 
-def stretches(count: int, share: float) -> Bool[np.ndarray, " t"]:
-    """Which of `count` samples are used, a share of them; all where the stretches would touch."""
-    number = max(FEWEST_STRETCHES, round(share * count / STRETCH))
+def stretches(count: int, share: float, length: int = STRETCH, before: int = 0) -> Bool[np.ndarray, " t"]:
+    """Which of `count` samples are used, a share of them; all where the stretches would touch.
+
+    Parameters
+    ----------
+    length
+        Samples of a stretch.
+    before
+        Trials of as many stretches that came before.
+    """
+    number = max(1, round(share * count / length))
     part = count / number
-    if part <= STRETCH:
+    if part <= length:
         return np.ones(count, dtype=bool)
     used = np.zeros(count, dtype=bool)
     for k in range(number):
-        first = round(part * k + (part - STRETCH) * ((k + 1) * GOLDEN % 1.0))
-        used[first : first + STRETCH] = True
+        first = round(part * k + (part - length) * ((before * number + k + 1) * GOLDEN % 1.0))
+        used[first : first + length] = True
     return used

@@ -1,7 +1,8 @@
 """The clock of the outputs slips within a trial, or runs at another rate than that of the inputs.
 
 output(t) → output(t - d(t)), t from the start of the trial of duration T. "once": d is 0 before the share `when` of the
-trial and `delay` after it, linear over `PASSAGE` of the trial between the two: frames that came late, delay > 0, or
+trial and `delay` after it, linear over `PASSAGE` of the trial between the two, or over |delay| where that is longer, so
+that time never runs backwards: frames that came late, delay > 0, or
 samples of the outputs that were lost, delay < 0. "steady": d = rate t, a clock that runs slow or fast. Between samples
 by cubic Hermite interpolation; before the first sample the output is taken to have run straight, after the last one to
 stay. Every trial slips alike.
@@ -42,7 +43,8 @@ def once(system: System) -> Candidate:
             return outputs
         time = movement.time
         phase = (time - time[0]) / (time[-1] - time[0])
-        slipped = np.clip((phase - values[when.name]) / PASSAGE + 0.5, 0.0, 1.0)
+        passage = max(PASSAGE, abs(values[delay.name]) / (time[-1] - time[0]))
+        slipped = np.clip((phase - values[when.name]) / passage + 0.5, 0.0, 1.0)
         return np.asarray(read_at(time, outputs, time - values[delay.name] * slipped))
 
     link = with_sensor(Modifier("clock_slip.once", RANK, change, apart=True))

@@ -5,8 +5,9 @@ evidence of the new ones. That is the logarithm of a ratio of likelihoods of nor
 itself, with mean Δ and variance 2 Δ, Δ what B leaves of A's prediction on them (Van Trees 1968, Detection, Estimation,
 and Modulation Theory I, section 2.2). B is out of question once it is T nats behind, with probability
 Φ((d + Δ - T) / √(2 Δ)). T is what the verdict asks (`selection.verdict`): its smallest probability, and the
-tolerance of the form, which grows with what there is to explain. Whether A is then named is another question: an effect
-that is not worth a name is not.
+tolerance of the form, which grows with what there is to explain. What is promised of all others is 1 - Σ (1 - p), the
+least that their probabilities p admit, however they depend on each other (Bonferroni). Whether A is then named is
+another question: an effect that is not worth a name is not.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def margin(most: float) -> float:
 
 
 def share_told_apart(outlooks: Sequence[Outlook], most: float) -> float:
-    """Share of repetitions of the new trials after which every other explanation than the true one is out of question.
+    """Share of repetitions of the new trials, at the least, after which only the true explanation is in question.
 
     Parameters
     ----------
@@ -57,12 +58,12 @@ def share_told_apart(outlooks: Sequence[Outlook], most: float) -> float:
 
 
 def _ahead(one: Outlook, needed: float) -> float:
-    """Probability that the hardest of the others falls behind far enough."""
-    found = 1.0
+    """Probability that all others fall behind far enough, at the least."""
+    missed = 0.0
     for lead, gain in zip(one.leads, one.gains, strict=True):
         kept = max(gain, 1e-12)
-        found = min(found, NormalDist().cdf((lead + kept - needed) / float(np.sqrt(2.0 * kept))))
-    return found
+        missed += NormalDist().cdf((needed - lead - kept) / float(np.sqrt(2.0 * kept)))
+    return max(1.0 - missed, 0.0)
 
 
 def outlooks_of(

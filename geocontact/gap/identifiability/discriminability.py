@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from threadpoolctl import threadpool_limits
 
@@ -19,6 +19,7 @@ from geocontact.gap.identifiability.detectability import Detectability, detectab
 from geocontact.gap.identifiability.non_identifiable import confounded, mistakes, shown, visibilities
 from geocontact.gap.identifiability.separability import Separation, classes, separations
 from geocontact.gap.identifiability.signatures import BaseState, Sized, at_nats, base_state_of
+from geocontact.gap.selection.verdict import with_lapses
 
 NATS = 50.0  # visible nats that effects are compared at
 
@@ -102,6 +103,7 @@ def discriminability(
     """
     with threadpool_limits(limits=1):
         found = attribute(admitted(case, system), system, candidates, at)
+        found = replace(found, answer=with_lapses(found.answer, found.offered))
         problem, judged = found.clean, found.answer.chosen.judged
         ground = base_state_of(problem, judged.noise, judged.model.values)
         asked = offered(problem.system, names)

@@ -15,7 +15,7 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.gap.case import percent
 from geocontact.analyses.gap.diagnose.answer import axis_units, facts_of, states, untried_law, verdict_sentences
 from geocontact.analyses.gap.diagnose.curves import budget_bars, gap_figures
-from geocontact.analyses.gap.diagnose.show import gap_page, reading
+from geocontact.analyses.gap.diagnose.show import gap_page, gap_table, reading
 from geocontact.analyses.gap.nats import ahead_words, odds_words
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Ranked, Where
@@ -193,14 +193,17 @@ def test_little_ahead_decides_nothing() -> None:
 
 def test_an_interval_below_zero_is_explained_where_there_is_one(told: Told) -> None:
     d = told[1].diagnosis
-    wide = {"force": replace(d.gap["force"], reduction=0.86, ci95=(-0.03, 0.95))}
-    doubtful = replace(d, gap=wide, probabilities={"damping": 0.95, "none": 0.05})
+    low = {"force": replace(d.gap["force"], reduction=0.26, ci95=(-0.03, 0.45))}
+    doubtful = replace(d, gap=low, probabilities={"damping": 0.95, "none": 0.05})
     first, second, *_ = reading(doubtful)
     assert first.startswith("p is the probability of an answer, from 0 to 1")
-    assert second.startswith("The 95 % interval −3 to 95 % reaches below 0 beside p = 0.95. These are two questions.")
-    assert second.endswith("the error of force may shrink by up to 95 %, or grow by up to 3 %.")
-    sure = replace(d, gap={"force": replace(d.gap["force"], ci95=(0.8, 0.9))})
-    assert not any("reaches below 0" in line for line in reading(sure))
+    assert second.startswith("The 95 % interval −3 to 45 % reaches below 0 beside p = 0.95. These are two questions.")
+    assert second.endswith("the error of force may shrink by up to 45 %, or grow by up to 3 %.")
+    for ci95 in ((0.8, 0.9), (-0.03, 0.95)):
+        other = replace(d, gap={"force": replace(d.gap["force"], reduction=0.86, ci95=ci95)})
+        assert not any("reaches below 0" in line for line in reading(other))
+        (row,) = gap_table(replace(told[1], diagnosis=other)).rows
+        assert ("too wide" in row) == (ci95[0] < 0.0) == ("86 %" not in row)
 
 
 def test_errors_are_drawn_before_and_after_with_their_interval(told: Told) -> None:

@@ -158,6 +158,18 @@ def test_an_input_that_does_nothing_is_named(apart: Path) -> None:
     assert any(each.startswith("angle changed no output") for each in result.questions)
 
 
+def test_a_contact_that_is_open_for_half_a_trial_shows_its_memory(apart: Path) -> None:
+    """A spring with a lag that is hit at one place of the trial only, not at its middle."""
+    text = """import numpy as np
+
+def run(time, inputs, numbers):
+    held = np.where(np.arange(len(time)) < len(time) // 5, np.maximum(inputs[0] + 1.0, 0.0), 0.0)
+    return numbers["k"] * np.convolve(held, [0.0, 0.5, 0.5])[: len(time)]
+"""
+    result = gc.init_gap_case(simulator=file_of(apart, "open.py", text), data=recordings(apart / "data"))
+    assert result.run.spreads and not any("changed no output" in each for each in result.questions)
+
+
 def test_a_program_is_called_for_each_trial(apart: Path) -> None:
     file_of(apart, "program.py", PROGRAM)
     command = f"{sys.executable} program.py {{params}} {{trial}} {{out}}"
@@ -209,8 +221,9 @@ def test_columns_are_named_or_asked_about(apart: Path) -> None:
 
 def test_too_few_trials_are_refused_and_few_asked_about(apart: Path) -> None:
     simulator = file_of(apart, "own.py", 'def run(time, inputs, numbers):\n    return numbers["k"] * inputs[0]\n')
-    with pytest.raises(gc.InputError, match=r"holds 1 \.csv files"):
-        gc.init_gap_case(simulator=simulator, data=recordings(apart / "one", 1))
+    for count in (1, 2):
+        with pytest.raises(gc.InputError, match=rf"holds {count} \.csv files"):
+            gc.init_gap_case(simulator=simulator, data=recordings(apart / f"few{count}", count))
     result = gc.init_gap_case(simulator=simulator, data=recordings(apart / "three", 3))
     assert any(each.startswith("3 trials; can you record 4") for each in result.questions)
     result = gc.init_gap_case(simulator=simulator, data=recordings(apart / "seven", 7))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.gap import thinning
 from geocontact.analyses.gap.thinning import ROWS, STRETCH, measured_rows, read_thinned, stretches, thinned
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
@@ -44,6 +45,35 @@ def test_a_long_one_has_as_many_rows_as_it_may(samples: int) -> None:
         np.testing.assert_array_equal(before.column("angle"), after.column("angle"))
         kept = np.isfinite(after.column("force"))
         np.testing.assert_array_equal(after.column("force")[kept], before.column("force")[kept])
+
+
+def test_many_short_trials_are_thinned_at_other_places() -> None:
+    case = case_of(150, 400)
+    fewer = thinned(case, ("force",))
+    assert measured_rows(fewer, ("force",)) == 400 * STRETCH
+    firsts = [
+        int(np.flatnonzero(np.isfinite(one.column("force")))[0]) for one in (*fewer.calibration, *fewer.evaluation)
+    ]
+    assert np.histogram(firsts, 5, (0, 150 - STRETCH))[0].min() > 30
+
+
+def test_stretches_of_what_is_measured_now_and_then_are_longer() -> None:
+    case = case_of(40_000)
+    for trial in (*case.calibration, *case.evaluation):
+        trial.signals.values[np.arange(40_000) % 10 != 0, 1:] = np.nan
+    fewer = thinned(case, ("force",))
+    kept = np.flatnonzero(np.isfinite(fewer.calibration[0].column("force"))) // 10
+    runs = np.split(kept, np.flatnonzero(np.diff(kept) > 1) + 1)
+    assert len(runs) > 10 and min(map(len, runs)) >= STRETCH
+
+
+def test_nothing_is_said_where_nothing_was_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = elbow_case("", seed=1)
+    write_gap_case(case, tmp_path / "case")
+    monkeypatch.setattr(thinning, "ROWS", measured_rows(case, ("force",)) - 1)
+    monkeypatch.setattr(thinning, "STRETCH", 10_000)
+    given = read_thinned(tmp_path / "case", False)
+    assert measured_rows(given.case, ("force",)) == measured_rows(case, ("force",))
 
 
 @pytest.mark.parametrize("period", [50.0, 97.3, 333.0, 411.7, 1000.0])

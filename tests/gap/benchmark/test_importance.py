@@ -45,6 +45,7 @@ def test_rates_count_by_importance() -> None:
         (label("pair", 0.4, "slip", "damping"), said("explained", "slip", "damping", share=0.64)),
         (label("outside", 0.0), said("partly_explained", "slip")),
         (label("outside", 0.0), said("no_gap")),
+        (label("none", 0.0), said("explained", "slip")),
     ]
     found = {name: (rate.hits, rate.count) for name, rate in by_importance(pairs).items()}
     assert found == {
@@ -55,8 +56,9 @@ def test_rates_count_by_importance() -> None:
         "pair_one": (2, 2),
         "pair_no_wrong": (2, 2),
         "strange_unknown": (1, 2),
+        "strange_wrong": (2, 3),
         "budget_inside": (2, 3),
-        "budget_closed": (10, 10),
+        "budget_closed": (11, 11),
     }
 
 

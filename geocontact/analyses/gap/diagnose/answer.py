@@ -18,6 +18,7 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, Diagnosis, Partial, Where
 from geocontact.data.gap_cells import BAND, FAST_PHASE, Cell
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.levels import WORTH_NAMING
 from geocontact.gap.localise.gap_map import load_outputs
 
 SIGNIFICANT = 0.05  # family-wise
@@ -100,6 +101,7 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     lacking = [name for name in d.effects if name not in mistakes]
     parts = [*_named(d, lacking, "missing"), *_named(d, mistakes, "a mistake in the data")]
     it, main = "it" if len(d.effects) == 1 else "them", d.where[0].channel if d.where else next(iter(d.gap))
+    parts += [f"with {it} the error of {name} is larger ({sizes_words(d.gap[name])})" for name in _larger(d)]
     if d.where:
         parts.append(f"{'it sits' if it == 'it' else 'they sit'} in {place(d.where[0], cells)}")
     others = [w.channel for w in d.where[1:] if w.share >= MOST]
@@ -112,6 +114,12 @@ def _explained(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     elif rest is not None:
         parts.append(f"{percent(rest)} % stays unexplained")
     return ["; ".join(parts), f"on a new trial: {expected_words(gaps)}", *in_question(d), *_absorbed(d)]
+
+
+def _larger(d: Diagnosis) -> list[str]:
+    """Channels whose error on held-out trials is surely larger with what is named."""
+    parts = {name: one["effects"] for name, one in d.budget.items() if "effects" in one}
+    return [name for name, one in parts.items() if one.ci95[1] < 0.0 and one.share <= -WORTH_NAMING]
 
 
 def in_question(d: Diagnosis) -> list[str]:

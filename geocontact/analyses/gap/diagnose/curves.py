@@ -138,10 +138,12 @@ def budget_bars(findings: Findings) -> list[BudgetBar]:
 
 
 def budget_words(findings: Findings) -> list[str]:
-    """What the error of each channel consists of, as root mean squares, and where the unexplained is."""
-    said, where = [], {w.channel: w.phase for w in findings.diagnosis.where}
-    for name, parts in findings.diagnosis.budget.items():
-        quantity, before = quantity_of(findings, name), findings.diagnosis.gap[name].rmse_before
+    """What the error of each channel consists of, as root mean squares; where it is unexplained if nothing is named."""
+    said, d = [], findings.diagnosis
+    nothing = not any(trial.named is not None for trial in findings.held_out)  # else `where` is where the effect acts
+    where = {w.channel: w.phase for w in d.where} if nothing else {}
+    for name, parts in d.budget.items():
+        quantity, before = quantity_of(findings, name), d.gap[name].rmse_before
         sizes = {part: before * float(np.sqrt(max(each.share, 0.0))) for part, each in parts.items()}
         shown = [f"{_printed(quantity, size)} {PART_WORDS[part]}" for part, size in sizes.items() if size > 0.0]
         place = ""

@@ -22,9 +22,9 @@ from geocontact.analyses.gap.diagnose.curves import (
     worst_first,
 )
 from geocontact.analyses.gap.diagnose.page_answers import map_strips, ranking_bars, reduction_bars
-from geocontact.analyses.gap.diagnose.shrinking import axis_words, interval
+from geocontact.analyses.gap.diagnose.shrinking import axis_words, interval, telling
 from geocontact.analyses.gap.nats import ODDS
-from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.diagnosis import ChannelGap, Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.reduction.error_budget import PARTS
@@ -95,8 +95,13 @@ def gap_table(findings: Findings) -> Table:
         window = ["–"] * 3
         if w is not None:
             window = [f"{percent(w.share)} %", f"{percent(w.phase[0])}–{percent(w.phase[1])} %", f"{w.p_value:.2g}"]
-        rows.append((name, quantity.unit, *sizes, f"{percent(g.reduction)} %", interval(g.ci95), rest, *window))
+        rows.append((name, quantity.unit, *sizes, *_expected(g), rest, *window))
     return Table("How far the gap shrinks, held-out trials (root mean squares)", GAP_HEADER, rows)
+
+
+def _expected(gap: ChannelGap) -> tuple[str, str]:
+    """Reduction and interval; neither where that is too wide to show how far."""
+    return (f"{percent(gap.reduction)} %", interval(gap.ci95)) if telling(gap.ci95) else ("not shown", "too wide")
 
 
 def budget_shares(findings: Findings) -> Table:
@@ -233,7 +238,7 @@ def reading(d: Diagnosis) -> list[str]:
     """What p, nats and an interval that reaches below zero mean, as far as this diagnosis has them."""
     said = [PROBABILITY]
     main = d.where[0].channel if d.where else next(iter(d.gap), None)
-    if d.effects and main is not None and d.gap[main].ci95[0] < 0.0:
+    if d.effects and main is not None and d.gap[main].ci95[0] < 0.0 and telling(d.gap[main].ci95):
         low, high = d.gap[main].ci95
         p = sum(d.probabilities.get(name, 0.0) for name in d.effects)
         said.append(

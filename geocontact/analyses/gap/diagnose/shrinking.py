@@ -30,6 +30,11 @@ def interval(ci95: tuple[float, float]) -> str:
     return f"{percent(ci95[0])} to {percent(ci95[1])} %"
 
 
+def telling(ci95: tuple[float, float]) -> bool:
+    """Whether an interval of a reduction shows how far, and is printed; diagnosis.json has it either way."""
+    return ci95[1] - ci95[0] <= SILENT
+
+
 def axis_words(axis: str) -> str:
     """An axis of the gap map in words: "rate of angle" of "angle'"."""
     return f"rate of {axis.rstrip(chr(39))}" if axis.endswith("'") else axis
@@ -68,7 +73,7 @@ def expected_words(gaps: Mapping[str, ChannelGap]) -> str:
     parts: list[str] = []
     for name, gap in gaps.items():
         of = f" for {name}" if len(gaps) > 1 else ""
-        if gap.ci95[1] - gap.ci95[0] > SILENT:
+        if not telling(gap.ci95):
             many = counted(gap.trials, "held-out trial") if gap.trials else "the held-out trials"
             parts.append(
                 f"{many} {'does' if gap.trials == 1 else 'do'} not show how far the error shrinks{of}: record more"

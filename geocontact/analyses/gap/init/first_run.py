@@ -47,7 +47,7 @@ class FirstRun:
     spreads
         Whether a change of the inputs at one sample changes outputs at others.
     silent
-        Inputs that change no output.
+        Inputs that change no output at any of the samples that were moved.
     """
 
     system: System
@@ -146,20 +146,25 @@ def _answers(
 ) -> tuple[bool, tuple[str, ...]]:
     """Whether a sample of the inputs changes outputs at other samples, and which inputs change nothing.
 
-    The middle sample of one input after the other is moved by `BUMP` of its half-range.
+    A sample of one input after the other is moved by `BUMP` of its half-range: where an output is largest, then at
+    quarters of the trial, until an output changes: a contact may be open for most of a trial.
     """
-    at, spreads, silent = len(trial) // 2, False, []
+    largest = [int(np.argmax(np.nan_to_num(np.abs(each)))) for each in outputs.T]
+    places = tuple(dict.fromkeys([*largest, *(len(trial) * k // 4 for k in (2, 1, 3))]))
+    spreads, silent = False, []
     for name in system.inputs:
         column = trial.signals.channels.index(name)
-        values = trial.signals.values.copy()
-        half = 0.5 * float(np.nanmax(values[:, column]) - np.nanmin(values[:, column]))
-        values[at, column] += BUMP * (half if half > 0.0 else 1.0)
-        moved = _called(system, replace(trial, signals=replace(trial.signals, values=values)), file)
-        change = np.nan_to_num(np.abs(moved - outputs)).max(axis=1)
-        if change.max() <= 1e-12 * max(float(np.nanmax(np.abs(outputs))), 1e-300):
+        half = 0.5 * float(np.ptp(trial.signals.values[:, column][np.isfinite(trial.signals.values[:, column])]))
+        for at in places:
+            values = trial.signals.values.copy()
+            values[at, column] += BUMP * (half if half > 0.0 else 1.0)
+            moved = _called(system, replace(trial, signals=replace(trial.signals, values=values)), file)
+            change = np.nan_to_num(np.abs(moved - outputs)).max(axis=1)
+            if change.max() > 1e-12 * max(float(np.nanmax(np.abs(outputs))), 1e-300):
+                spreads = spreads or bool(np.delete(change, at).max() > SPREADS * change.max())
+                break
+        else:
             silent.append(name)
-        elif np.delete(change, at).max() > SPREADS * change.max():
-            spreads = True
     return spreads, tuple(silent)
 
 

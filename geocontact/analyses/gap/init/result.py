@@ -136,9 +136,9 @@ class InitResult(Result):
 def read(o: InitOptions) -> GapCase:
     """The trials of a folder as a case without a base model."""
     files = sorted(each for each in o.data.glob("*.csv") if each.is_file())
-    if len(files) < 2:
+    if len(files) < 3:
         what = f"holds {len(files)} .csv files"
-        raise InputError(o.data, "", what, "give a file per trial: one to fit to and one held out at least")
+        raise InputError(o.data, "", what, "give a file per trial: two to fit to and one held out at least")
     tables = alike({each.stem: read_trial(each) for each in files})
     for each in files:
         add_input("trial", each)
@@ -200,7 +200,7 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
         asked.append(f"start, lower, upper and unit of {', '.join(names)}; fixed = true for what is known exactly")
     asked.append(f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated")
     if first.silent:
-        asked.append(f"{', '.join(first.silent)} changed no output at all: is it the right column?")
+        asked.append(f"{', '.join(first.silent)} changed no output where it was moved: is it the right column?")
     trials = (*case.calibration, *case.evaluation)
     if len(trials) < FEW:
         asked.append(f"{len(trials)} trials; can you record {FEW} or more? Two to fit to and two held out")

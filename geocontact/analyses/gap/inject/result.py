@@ -40,6 +40,7 @@ from geocontact.analyses.gap.diagnose.result import read as read_diagnosis
 from geocontact.analyses.gap.diagnose.result import run as run_diagnosis
 from geocontact.analyses.gap.inject.injection import answer, parameter_rows, planted, sentences
 from geocontact.analyses.gap.inject.options import InjectOptions
+from geocontact.analyses.gap.thinning import thinned
 from geocontact.chain.effect import Candidate
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
@@ -156,7 +157,7 @@ def run(given: CaseWithModel, o: InjectOptions) -> InjectResult:
     """
     one, made = planted(given, o)
     with listener().stages("the case without it") as at:
-        before = diagnose(given.case, given.system, at=at).diagnosis
+        before = diagnose(thinned(given.case, given.system.outputs), given.system, at=at).diagnosis
     scratch = Scratch()
     shutil.copytree(given.folder, scratch.folder / CASE)
     write_trials(made.case, scratch.folder / CASE)
