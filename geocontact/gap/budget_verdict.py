@@ -44,8 +44,6 @@ from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import Answer
 
 Budget = Mapping[str, ChannelBudget]
-ODD = 0.999
-"""Probability of less scatter of an amplitude between trials than makes it another effect."""
 
 
 def totals(budget: Budget, errors: RawInputErrors, problem: Problem) -> tuple[float, float, float]:
@@ -207,4 +205,4 @@ def differ(sizes: Sequence[float], errors: Sequence[float]) -> bool:
     a, weights = np.asarray(sizes), 1.0 / np.maximum(np.asarray(errors), 1e-12) ** 2
     middle = float((weights * a).sum() / weights.sum())
     scatter = float((weights * (a - middle) ** 2).sum())
-    return bool(np.std(a, ddof=1) > LEFT_OVER and scatter > chi2.ppf(ODD, len(a) - 1))
+    return bool(np.std(a, ddof=1) > LEFT_OVER and scatter > chi2.isf(np.exp(-SURE), len(a) - 1))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from geocontact.gap.levels import DEVIATIONS
 from geocontact.gap.reduction.error_budget import (
-    MOST_USUAL,
     PARTS,
     ErrorTrial,
     beyond_noise,
@@ -79,7 +79,7 @@ def test_a_trial_deviates_by_three_usual_deviations_at_most() -> None:
     column, there = np.full((n, 1, 1), 0.5), np.ones((n, 1), bool)
     residuals = [np.full((n, 1), 0.5 * each) for each in (2.0, 5.0)]
     found = deviations(residuals, [column] * 2, [there] * 2, np.array([0.1]))
-    np.testing.assert_allclose(found[:, 0], [2.0, MOST_USUAL], rtol=1e-3)
+    np.testing.assert_allclose(found[:, 0], [2.0, DEVIATIONS], rtol=1e-3)
 
 
 def test_what_an_effect_takes_by_hand() -> None:

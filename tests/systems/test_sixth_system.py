@@ -91,8 +91,12 @@ def test_sizes_are_those_that_the_system_says() -> None:
         ({"masses": ()}, {"inertia_load.thumb"}, set()),
         ({"masses": None}, {"inertia_load.thumb"}, set()),  # the pad moves against the handle, not in space
         ({"masses": None, "roles": {}}, {"inertia_load.thumb"}, {"inertia_load"}),
-        ({"roles": {"press": "displacement", "swing": "turn"}}, {"gravity_load", "motion_offset.swing"}, set()),
-        ({"roles": {"press": "travel"}}, {"motion_offset.press"}, set()),
+        (
+            {"roles": {"press": "displacement", "swing": "turn"}},
+            {"gravity_load", "motion_offset.swing", "play.swing"},
+            set(),
+        ),
+        ({"roles": {"press": "travel"}}, {"motion_offset.press", "play.press"}, set()),
         ({"plausible": {"press": 0.0}}, {"motion_offset.press"}, set()),
         ({"masses": (Mass("pad"),)}, {"inertia_load.thumb"}, {"inertia_load.pad"}),
         ({"way": Way(), "migration": Migration(2.0)}, set(), set()),  # sizes only

@@ -4,7 +4,7 @@
 
 Each part has evidence of its own. *Effects*: what the named effects, or the mistake in the data that is undone, take
 away on trials that nothing was fitted to. *Variation*: what the deviation of each trial takes away of what stays, its
-base parameters, placement, zeros and gains within `MOST_USUAL` times what is usual; what the calibration trials deviate
+base parameters, placement, zeros and gains within `DEVIATIONS` times what is usual; what the calibration trials deviate
 by alike is none. *Sensor*: noise as the case states it, of a quotient as it grows with the divisor; without a statement
 as it was estimated, so that its share is then an upper bound. *Inputs*: what noise of the inputs makes of the
 prediction, no louder than is usual. What stays then is **unexplained**: stated noise never grows to take it, and no
@@ -32,7 +32,7 @@ from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.case.whitening import SENSOR_LOUDER
 from geocontact.gap.data_errors import DataError, put_back
-from geocontact.gap.levels import DRAWS
+from geocontact.gap.levels import DEVIATIONS, DRAWS
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.reduction.repeats import axes_of, repeats
 from geocontact.gap.selection.evidence import Judged
@@ -41,8 +41,6 @@ from geocontact.identify.noise.noise_levels import BEYOND
 
 PARTS = ("sensor", "inputs", "variation", "effects", "unexplained")
 """Parts of the squared error, in the order of tables."""
-MOST_USUAL = 3.0
-"""Usual standard deviations that a trial may deviate by: as much as fitted variation is limited to."""
 
 
 def loudest() -> float:
@@ -189,7 +187,7 @@ def deviations(
     present: Sequence[Bool[np.ndarray, "_ c"]],
     floor: Float[np.ndarray, " c"],
 ) -> Float[np.ndarray, "i q"]:
-    """Most probable deviation of each trial, in usual standard deviations, `MOST_USUAL` at most.
+    """Most probable deviation of each trial, in usual standard deviations, `DEVIATIONS` at most.
 
     Parameters
     ----------
@@ -204,7 +202,7 @@ def deviations(
     for residual, columns, there in zip(residuals, varied, present, strict=True):
         b, r = (columns / floor[:, None])[there], (residual / floor)[there]
         root = np.linalg.cholesky(np.eye(b.shape[1]) + b.T @ b).T
-        found.append(lsq_linear(root, np.linalg.solve(root.T, b.T @ r), (-MOST_USUAL, MOST_USUAL)).x)
+        found.append(lsq_linear(root, np.linalg.solve(root.T, b.T @ r), (-DEVIATIONS, DEVIATIONS)).x)
     return np.asarray(found)
 
 

@@ -22,14 +22,7 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.system import System
 from geocontact.data.trial import Trial
 from geocontact.gap.case.change_amplitude import BLOCKS
-from geocontact.gap.levels import PHASES
-
-STATES = 6
-"""Parts of an input's range, of about as many samples each."""
-FEW_DRAWS = 500
-"""Turns of signs that chance is counted in."""
-CHANCE = 0.99
-"""Quantile of what chance makes, along each axis, above which something repeats."""
+from geocontact.gap.levels import DRAWS, FEW, PHASES, SURE
 
 
 @dataclass(frozen=True)
@@ -57,9 +50,7 @@ def axes_of(trials: Sequence[Trial], system: System) -> dict[str, list[Int[np.nd
     found = {"phase": [np.minimum((p * PHASES).astype(int), PHASES - 1) for p in phases]}
     movements = [recorded(t.signals, system.inputs, system.motion.reach) for t in trials]
     for row, name in enumerate(system.inputs):
-        edges = np.unique(
-            np.quantile(np.concatenate([m.position[row] for m in movements]), np.linspace(0, 1, STATES + 1))
-        )
+        edges = np.unique(np.quantile(np.concatenate([m.position[row] for m in movements]), np.linspace(0, 1, FEW + 1)))
         if len(edges) - 1 < 2:
             continue
         inner = edges[1:-1]
@@ -88,9 +79,9 @@ def repeats(
     for axis, which in axes.items():
         sums, counts = _in_bins(residuals, present, which)
         share = float(_common(sums.sum(axis=1)[None], counts)[0]) / whole
-        signs = np.random.default_rng(0).choice([-1.0, 1.0], (FEW_DRAWS, *sums.shape[:2]))
+        signs = np.random.default_rng(0).choice([-1.0, 1.0], (DRAWS, *sums.shape[:2]))
         chance = _common(np.einsum("nik,ikb->nib", signs, sums), counts) / whole
-        sure = share - float(np.quantile(chance, CHANCE))
+        sure = share - float(np.quantile(chance, -np.expm1(-SURE)))
         if sure > best.sure or (best.axis == "" and share > best.share):
             best = Repeats(max(share, 0.0), max(sure, 0.0), axis)
     return best
