@@ -61,4 +61,4 @@ def test_axes_are_the_phase_and_each_input_up_and_down() -> None:
     rising = np.gradient(trial.column("beta"), trial.time) > 0.2
     assert (bins[rising] % 2 == 1).mean() > 0.98
     counts = np.bincount(np.concatenate(found["beta"]) // 2)
-    assert len(counts) == 6 and counts.max() < 1.3 * counts.min()
+    assert len(counts) == 4 and counts.max() < 1.3 * counts.min()

@@ -66,7 +66,7 @@ def test_whole_by_hand(monkeypatch: pytest.MonkeyPatch) -> None:
             measured = rng.normal(size=(count, 4))
             measured[1, 3] = np.nan
             fields = {"measured": measured, "standing": "", "errors": Errors()}
-            self.stance = type("S", (), {"recorded": type("R", (), fields)})
+            self.stance = type("S", (), {"recorded": object.__new__(type("R", (RecordedStance,), fields))})
 
         def channels(self, shown: np.ndarray) -> np.ndarray:
             return shown
