@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -73,7 +74,8 @@ print(json.dumps({name: curve[:, 0].tolist() for name, curve in result.run.simul
 @pytest.mark.oracle
 def test_an_opensim_forward_model_is_begun(tmp_path: Path) -> None:
     """Against a Runge-Kutta integration of the pendulum; in a process of its own, as all of OpenSim's tests."""
-    pytest.importorskip("opensim")
+    if find_spec("opensim") is None:  # not imported here: its libraries and casadi's do not agree
+        pytest.skip("the opensim package is the oracle; pip install opensim")
     folder = tmp_path / "data"
     folder.mkdir()
     time = 0.02 * np.arange(100)
