@@ -29,6 +29,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.data.diagnosis import BudgetPart
 from geocontact.gap.case.change_amplitude import BLOCKS
+from geocontact.gap.case.noise_sources import seen_growth, signal_size
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.case.whitening import SENSOR_LOUDER
 from geocontact.gap.data_errors import DataError, put_back
@@ -243,6 +244,9 @@ def error_budget(
     own = deviations(stays, varied, problem.recorded.present, problem.floor)
     freed = [r - b @ d for r, b, d in zip(stays, varied, own, strict=True)]
     cleared = [r - b @ d for r, b, d in zip(stays, varied, own - own[:count].mean(axis=0), strict=True)]
+    measured = problem.recorded.outputs
+    growth = seen_growth(measured, [np.ones_like(each) for each in measured])
+    grown = [(growth * each) ** 2 for each in signal_size(measured)]
     trials: dict[str, list[ErrorTrial]] = {name: [] for name in outputs}
     for i in range(count, len(problem.recorded.trials)):
         there = problem.recorded.present[i]
@@ -252,7 +256,8 @@ def error_budget(
         for c, channel in enumerate(outputs):
             at = there[:, c]
             if at.any():
-                sensor = _of_sensor(estimated[at, c], stated.get(channel), channel in problem.system.quotients)
+                known = stated.get(channel), grown[i][at, c]
+                sensor = _of_sensor(estimated[at, c], *known, channel in problem.system.quotients)
                 parts = (errors.before[i][at, c], stays[i][at, c], cleared[i][at, c], sensor, inputs[at, c])
                 trials[channel].append(ErrorTrial(*parts))
     axes = axes_of(problem.recorded.trials, problem.system)
@@ -269,8 +274,13 @@ def error_budget(
     return found
 
 
-def _of_sensor(estimated: Float[np.ndarray, " n"], stated: float | None, quotient: bool) -> Float[np.ndarray, " n"]:
-    """Variance of a sensor's noise: as stated; of a quotient no less than it is estimated to be by its divisor."""
+def _of_sensor(
+    estimated: Float[np.ndarray, " n"], stated: float | None, grown: Float[np.ndarray, " n"], quotient: bool
+) -> Float[np.ndarray, " n"]:
+    """Variance of a sensor's noise: as stated, and what successive samples show that it grows with the signal.
+
+    Of a quotient no less than it is estimated to be by its divisor.
+    """
     if stated is None:
         return estimated
-    return np.maximum(estimated, stated**2) if quotient else np.full(len(estimated), stated**2)
+    return np.maximum(estimated, stated**2) if quotient else stated**2 + grown
