@@ -39,7 +39,7 @@ def test_a_population_with_its_figure_and_page(tmp_path: Path) -> None:
     assert result.record()["results"]["population"] == m
 
 
-@pytest.mark.filterwarnings("ignore:.*is unusual for the largest force")
+@pytest.mark.filterwarnings("ignore:.*is unusual for")
 def test_python_draws_as_the_command_does(tmp_path: Path) -> None:
     typed = done(population(tmp_path, {"--seed": 3, "--stroke-mm": "-0.01:0.02"}, "--keep")).folder
     file, span = tmp_path / "people.toml", gc.deg(0, 120)
