@@ -97,7 +97,7 @@ def same_times(recorded: Float[np.ndarray, " r"], wanted: Float[np.ndarray, " t"
 
 
 def _noise(force: Float[np.ndarray, "t 3"], pressing: Bool[np.ndarray, "t n"]) -> float:
-    """Noise of the three parts together, where a cell presses [N]: the length of noise alone varies less than they do."""
+    """Noise of the three parts together, where a cell presses [N]: the length of noise varies less than they do."""
     under = np.where(np.any(pressing, axis=1, keepdims=True), force, np.nan)
     return float(np.linalg.norm([noise_of(part) for part in under.T]))
 
