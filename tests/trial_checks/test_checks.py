@@ -211,13 +211,15 @@ def slipping(by: float) -> Callable[[np.ndarray], np.ndarray]:
 
 
 def labelled(*pairs: str) -> Callable[[TrialInputs], TrialInputs]:
-    """Two further markers for each word, a number behind it: 0.1 m above the right ASIS, and ever farther."""
+    """Two further markers for each word, a number behind it: 0.1 m above the right ASIS, and ever farther; words 20 mm
+    apart."""
 
     def change(trial: TrialInputs) -> TrialInputs:
         seen = trial.markers
         one = seen.positions[:, 3] + [0.0, 0.1, 0.0]
         other = one + np.linspace(0.1, 0.3, len(one))[:, None] * [0.0, 1.0, 0.0]
-        places = [seen.positions, *([each[:, None] for _ in pairs for each in (one, other)])]
+        beside = [0.02 * k * np.array([0.0, 0.0, 1.0]) for k in range(len(pairs))]
+        places = [seen.positions, *([(each + off)[:, None] for off in beside for each in (one, other)])]
         names = (*seen.names, *(f"{word}{k}" for word in pairs for k in (1, 8)))
         return replace(trial, markers=replace(seen, positions=np.concatenate(places, axis=1), names=names))
 
