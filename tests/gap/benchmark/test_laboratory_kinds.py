@@ -89,12 +89,11 @@ def test_the_other_kinds_record_what_they_did_before_there_were_fresh_ones(name:
 
 
 def test_numbers_of_trials_are_those_that_kinds_tell() -> None:
-    """In all, from 2 to 12; for fitting one trial at least and for holding out one."""
+    """In all, from 4 to 12; for fitting two trials at least and for holding out two, with fewer none is diagnosed."""
     assert {sum(one) for one in cases.TRIALS} == {5, 6}
     found = {name: {sum(one) for one in pairs} for name, pairs in TRIALS.items()}
-    assert found == {"fewest": {2, 3}, "few": {3, 4}, "several": {7, 8}, "many": {9, 10, 11, 12}}
-    assert all(min(one) >= 1 for pairs in TRIALS.values() for one in pairs)
-    assert any(learn == 2 for learn, _ in TRIALS["fewest"])
+    assert found == {"fewest": {4}, "few": {4, 5}, "several": {7, 8}, "many": {9, 10, 11, 12}}
+    assert all(min(one) >= 2 for pairs in TRIALS.values() for one in pairs)
 
 
 @pytest.mark.parametrize("name", LABORATORY_KINDS)
@@ -120,7 +119,7 @@ def test_a_laboratory_has_what_its_kind_says(name: str) -> None:
     assert bool(len(laboratory.standing)) == (kind.trouble == "constants")
     assert bool(len(laboratory.warm_up.cold)) == (kind.trouble == "warm_up")
     count = sum(laboratory.trials or (3, 2))
-    within = {"fewest": (2, 3), "few": (3, 4), "usual": (5, 6), "several": (7, 8), "many": (9, 12)}[kind.trials]
+    within = {"fewest": (4, 4), "few": (4, 5), "usual": (5, 6), "several": (7, 8), "many": (9, 12)}[kind.trials]
     assert within[0] <= count <= within[1] and (laboratory.trials is None) == (kind.trials == "usual")
     assert laboratory.forms == kind.forms
     if kind.inputs == "raw":

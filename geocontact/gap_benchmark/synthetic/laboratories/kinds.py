@@ -89,8 +89,8 @@ class LaboratoryKind:
     inputs
         What their noise came through: as the benchmark's own laboratory; 6 Hz; nothing; a filter of each input's own.
     trials
-        In all: 2 or 3 (fewest), 3 or 4 (few), 5 or 6 as in the home laboratory (usual), 7 or 8 (several), 9 to 12
-        (many).
+        In all: 4, what a diagnosis asks for (fewest), 4 or 5 (few), 5 or 6 as in the home laboratory (usual), 7 or 8
+        (several), 9 to 12 (many).
     trouble
         placed: all sits a little elsewhere in every trial; constants: told a little wrong, in all trials alike;
         warm_up: gains and zeros settle in the first trials.
@@ -186,8 +186,8 @@ STEPS = {"fine": (0.05, 0.3), "coarse": (0.5, 2.0)}
 """Steps of the numbers, in standard deviations of the noise; mixed: of each channel one of the two."""
 COARSEST_INPUT = 1.0
 TRIALS: Mapping[Trials, tuple[tuple[int, int], ...]] = {
-    "fewest": ((1, 1), (2, 1)),
-    "few": ((2, 1), (2, 1), (2, 2), (3, 1)),
+    "fewest": ((2, 2),),
+    "few": ((2, 2), (3, 2)),
     "several": ((4, 3), (5, 2), (5, 3)),
     "many": ((6, 3), (7, 3), (7, 4), (8, 4)),
 }
