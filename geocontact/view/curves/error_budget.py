@@ -22,6 +22,8 @@ COLOURS = {
     "unexplained": PALETTE[1],
 }
 """Colour of each part, in the order in which a bar is stacked."""
+DARK, LIGHT_INK = ("sensor", "effects", "unexplained"), "#fefefe"
+"""Parts too dark for black figures, and the colour of theirs, which a page leaves as it is in the dark."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,10 @@ def error_budget_figure(bars: Sequence[BudgetBar], words: Mapping[str, str]) -> 
             width = 100.0 * max(bar.parts.get(part, 0.0), 0.0)
             axes.barh(row, width, left=left, height=0.7, color=colour, label=words[part] if row == 0 else None)
             if width > 6.0:
-                axes.text(left + 0.5 * width, row, number(width, 100.0), ha="center", va="center", fontsize=SMALL)
+                ink = LIGHT_INK if part in DARK else "black"
+                axes.text(
+                    left + width / 2, row, number(width, 100.0), ha="center", va="center", fontsize=SMALL, color=ink
+                )
             left += width
         beside = axes.get_yaxis_transform()
         axes.text(1.01, row, bar.size, va="center", fontsize=SMALL, transform=beside)

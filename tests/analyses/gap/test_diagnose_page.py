@@ -83,11 +83,11 @@ def kinds(page: Page) -> list[str]:
     return [s.title for s in page.sections if isinstance(s, Curves | Intervals | Strips | Picture)]
 
 
-def test_measured_and_simulated_come_before_the_diagnosis(page: Page) -> None:
+def test_the_budget_leads_and_measured_and_simulated_follow(page: Page) -> None:
     """On the first screen; where, how far and how sure after that, then what else there is of the trials."""
     assert page.leads == range(1) and kinds(page) == [
-        "force, held-out trial t03",
         "What the error consists of",
+        "force, held-out trial t03",
         "How far the error shrinks on held-out trials",
         "How sure that is",
         "Where the gap of force is",
@@ -100,7 +100,7 @@ def test_measured_and_simulated_come_before_the_diagnosis(page: Page) -> None:
     assert html.index("force, held-out trial t03") < verdict and lead < html.index("How sure that is") < verdict
 
 
-def test_the_budget_opens_the_page_in_words_and_stands_below_the_curves(told: Told, page: Page) -> None:
+def test_the_budget_opens_the_page_in_words_and_as_a_picture(told: Told, page: Page) -> None:
     """Sizes in words are roots of shares of the squared error; it is the only picture of an elbow."""
     (picture,) = [s for s in page.sections if isinstance(s, Picture)]
     assert picture.title == "What the error consists of" and picture.svg.startswith(b"<?xml")
@@ -454,14 +454,14 @@ def test_what_is_not_ruled_out_stands_apart_from_what_cannot_be_told(told: Told)
     alike = {"one_law": (("damping", "filter_lag"),), "apart": {"filter_lag": 0.4, "slip": 8.0}}
     rivals = {"effects": ("damping",), "ambiguity": ("damping", "filter_lag", "slip"), "behind": {"slip": 3.0}}
     found = facts(verdict="explained", **alike, **rivals)
-    assert found["Not distinguishable from"].startswith("these trials cannot distinguish damping from filter_lag: ")
+    assert found["One law on these trials"] == "damping or filter_lag"
     why = "slip is not ruled out: 3.0 nats behind, the two differ by 8.0 nats on these trials"
     assert found["Not ruled out"] == why
     nothing = facts(verdict="no_gap", effects=(), ambiguity=("slip",), one_law=(), apart={})
-    assert nothing["Not ruled out"] == "slip" and "Not distinguishable from" not in nothing
+    assert nothing["Not ruled out"] == "slip" and "One law on these trials" not in nothing
     many = facts(verdict="unresolved", effects=(), ambiguity=("damping", "filter_lag", "slip"), **alike)
     assert many["Not separable"] == "damping, filter_lag and slip" and "Not ruled out" not in many
-    assert "damping from filter_lag" in many["Not distinguishable from"]
+    assert many["One law on these trials"] == "damping or filter_lag"
 
 
 def test_two_effects_are_missing_together() -> None:

@@ -230,7 +230,7 @@ def facts_of(findings: Findings) -> list[tuple[str, str]]:
     alive = ", ".join(f"{name} {value:.2f}" for name, value in _likeliest(d) if value >= 0.005)
     lines.append(("Probability p of each answer", alive))
     if d.one_law:
-        lines.append(("Not distinguishable from", "; ".join(one_law_words(d))))
+        lines.append(("One law on these trials", "; ".join(names(group, "or") for group in d.one_law)))
     if d.verdict == "unresolved":
         lines.append(("Not separable", names(d.ambiguity)))
     elif rest := not_ruled_out(d) if d.effects else d.ambiguity:

@@ -1,4 +1,4 @@
-"""A diagnosis on its page: measured and simulated first, then where, how far and how sure; words and tables after."""
+"""A diagnosis on its page: what the error consists of, measured and simulated, how far and how sure; then tables."""
 
 from __future__ import annotations
 
@@ -191,8 +191,8 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     missing = max(len(findings.held_out) * len(d.gap) - PANELS, 0)
     sentences = verdict_sentences(d, findings.cells)
     sections: list[Section] = [
-        *first,
         *budget_picture(findings, drawings),
+        *first,
         reduction_bars(findings),
         ranking_bars(findings),
         map_strips(findings),
@@ -231,7 +231,10 @@ def _headline(findings: Findings, sentences: Sequence[str], injected: Sequence[s
 
 
 def _sentence(words: str) -> str:
-    return f"{words[0].upper()}{words[1:]}."
+    """With a full stop, and a capital unless it begins with the name of a channel or an effect."""
+    first = words.split(maxsplit=1)[0]
+    named = "_" in first or first.endswith(":")
+    return f"{words if named else words[0].upper() + words[1:]}."
 
 
 def reading(d: Diagnosis) -> list[str]:
