@@ -89,11 +89,12 @@ class NotConverged(ArithmeticError):  # noqa: N818
 
 def require_convergence(unsolved: int, samples: int, compliance: float) -> None:
     """Raise when samples are left without a solution."""
-    if unsolved:
-        raise NotConverged(
-            f"series compliance {compliance:g}: {unsolved} of {samples} samples have no load within {TOLERANCE:g}; "
-            "a smaller compliance has one"
-        )
+    if not unsolved:
+        return
+    what = f"{min(unsolved, samples)} of {samples} samples have no load within {TOLERANCE:g}"
+    if compliance == 0.0:
+        raise NotConverged(f"{what}: the motion runs away, or the force grows beyond all bounds, with these numbers")
+    raise NotConverged(f"series compliance {compliance:g}: {what}; a smaller compliance has one")
 
 
 @runtime_checkable

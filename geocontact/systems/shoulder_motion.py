@@ -56,6 +56,8 @@ WELL_RESOLVED = 25.0
 """Frequency [rad/s] of the arm on its interface from which steps are shorter in proportion to its period."""
 JUMP = 2e-2
 """Change of rate [rad/s] that a step may make unforeseen; else it is halved, down to `SHORTEST`."""
+MOST = 4.0
+"""Steps, times those that a motion takes if all are the shortest: beyond them it runs away and has no solution."""
 SETTING_OUT = 1.0 / 32.0
 """First step over the time to the next sample."""
 STIFF = 1.5
@@ -299,7 +301,9 @@ def swing(
 ) -> tuple[Float[np.ndarray, "four t"], int, Float[np.ndarray, "rows nineteen"]]:
     """Angle e [rad], force F [N], u [m] and u' [m/s] at every sample; how many steps have no solution; all steps.
 
-    Between samples the recorded arm's angle and rate run along cubics. Steps are at most `longest` [s].
+    Between samples the recorded arm's angle and rate run along cubics. Steps are at most `longest` [s]. A motion that
+    runs away, of an arm that a law throws, is not followed for ever: the samples after `MOST` steps have no solution
+    and are zero.
     """
     out = np.empty((4, time.size))
     w = np.empty(4)
@@ -312,6 +316,7 @@ def swing(
     before[ACCELERATION] = found
     unsolved = 0 if known else 1
     longest *= min(1.0, WELL_RESOLVED / max(n[0] * sqrt(law[0] / (n[3] + n[20])), 1e-9))
+    most = MOST * (time.size + (time[time.size - 1] - time[0]) / min(longest, SHORTEST))
     share = SETTING_OUT
     path = recorded(np.empty((2 * time.size, COLUMNS)), 0, False, arm[0], rate[0], 0, before, old)
     steps = 1
@@ -342,6 +347,9 @@ def swing(
             steps += 1
             if rough < 0.1:
                 share *= 2.0
+            if steps > most:
+                out[:, i:] = 0.0
+                return out, unsolved + time.size - i, path[:steps]
         out[0, i], out[1, i] = before[ANGLE], before[FORCE]
         sine, cosine = sin(before[ANGLE]), cos(before[ANGLE])
         along = w[WX] * sine - w[WY] * cosine

@@ -12,12 +12,12 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from geocontact.chain.system import System
+from geocontact.chain.system import NotConverged, System
 from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.systems import shoulder as shoulder_exoskeleton
-from geocontact.systems.shoulder_motion import GRAVITY
+from geocontact.systems.shoulder_motion import GRAVITY, MOST, SHORTEST
 from tests.systems.examples import SHOULDER_CONSTANTS, recording, shoulder, shoulder_trial, support
 
 NOISE = np.array([0.002, 0.4])
@@ -101,6 +101,18 @@ def test_steps_are_of_fourth_order() -> None:
     errors = [float(np.sqrt(np.mean((a - b)[25:] ** 2))) for a, b in itertools.pairwise(got)]
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert orders.min() > 3.5, (errors, orders)
+
+
+def test_an_arm_that_runs_away_is_not_followed_for_ever() -> None:
+    """A damper that feeds energy, along an uneven clock: steps as short as what an interval left of the one before."""
+    time = np.cumsum(np.random.default_rng(1).uniform(0.016, 0.048, 300))
+    nothing = np.full(time.size, np.nan)
+    columns = {"arm": np.array([raised(t) for t in time]), "event": np.zeros(time.size)}
+    thrown = recording("t", time, {**columns, "exo": nothing, "force": nothing}, level=1.0)
+    with pytest.raises(NotConverged, match="the motion runs away"):
+        shoulder().demand(thrown, {**VALUES, "b_t": -30.0})
+    longest = max(len(path) for path in shoulder_exoskeleton._STEPS.values())
+    assert longest <= 2 + MOST * (time.size + np.ptp(time) / SHORTEST)
 
 
 def pendulum(c: float) -> tuple[System, Trial, np.ndarray]:
