@@ -21,7 +21,7 @@ from geocontact.io.opensim.osim_contact import bushing_force_between, smooth_sph
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.io.opensim.storage_writer import write_moco_trajectory, write_storage
 from geocontact.io.text.results import CASES, write_table
-from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TRUNK, TURNING, Subject, leg_chain
+from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TURNING, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT, two_chains
 from geocontact.standing_up.strap import StrapForce, StrapMotion, strap_force, strap_motion
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
@@ -141,7 +141,7 @@ def _write_lines(folder: Path, subject: Subject, trial: TrialResult, straps: Str
     time = trial.recorded.time
     kept = np.unique(np.linspace(0, len(time) - 1, LINE_FRAMES).round().astype(int))
     poses = (two_chains(subject) if straps else leg_chain(subject)).poses(trial.model.q)
-    tops = [(PERSON, "trunk", TRUNK.length * subject.height)]
+    tops = [(PERSON, "trunk", subject.segments["trunk"].length)]
     tops += [(EXOSKELETON, "exo_module", HEIGHT)] if straps else []
     points, force = [_centre(trial)], {0: _ground(trial)}
     lines: list[tuple[int, ...]] = [(0,)]

@@ -13,7 +13,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.data.motion import Course
-from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
+from geocontact.standing_up.chain import COORDINATES, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
@@ -93,9 +93,10 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
     aside = np.array([0.0, 0.0, BESIDE * (number - 0.5 * (count - 1))])
     worn = trial.model.q.shape[1] > len(COORDINATES)
     poses = (two_chains(subject) if worn else leg_chain(subject)).poses(at_parts(trial, trial.model.q))
-    toe = poses["foot"].apply(np.array([FOOT.length * subject.height, -0.05, 0.0]))
+    segments = subject.segments
+    toe = poses["foot"].apply(np.array([segments["foot"].length, -0.05, 0.0]))
     heel = poses["foot"].apply(np.array([-0.05, -0.05, 0.0]))
-    top = poses["trunk"].apply(np.array([0.0, TRUNK.length * subject.height, 0.0]))
+    top = poses["trunk"].apply(np.array([0.0, segments["trunk"].length, 0.0]))
     joints = [poses[name].translation for name in ("shank", "thigh", "trunk")]
     body = np.stack([*joints, top], axis=1)
     foot = np.stack([heel, joints[0], toe], axis=1)

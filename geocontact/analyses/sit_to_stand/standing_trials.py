@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, worn_device
+from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, person_of, worn_device
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -62,7 +62,8 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     """Everything in the study; `c3d_unit` is that of .c3d files that have none, `axes` turns plates into x, y up, z."""
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
-    subject = Subject(study.mass, study.height, worn_device(study, file))
+    subject = replace(person_of(study), device=worn_device(study, file))
+    _confront_masses(subject, file)
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
@@ -85,6 +86,21 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     read = [channels_of(each, chain, subject, noise, tracks, file, names, c3d_unit, turn) for each in study.trials]
     weights, worn = CostWeights(**study.weights), study.exoskeleton
     return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights)
+
+
+SUM = 0.01
+"""Share of body mass by which own masses of all segments may differ from it."""
+
+
+def _confront_masses(subject: Subject, study: Path) -> None:
+    """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's."""
+    masses = {name: segment.mass for name, segment in subject.segments.items()}
+    if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
+        legs = sum(masses.values()) - masses["trunk"]
+        what = (
+            f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
+        )
+        raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
 
 
 def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:

@@ -33,6 +33,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, N_M, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, m, mm
@@ -52,6 +53,7 @@ from geocontact.io.documents import (
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5))
+LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {
     "length": Plausible("the standard deviation of a place", mm, (1e-4, 1000.0), (0.01, 20.0)),
@@ -157,6 +159,34 @@ class StandingTrialFiles(Document):
         return self
 
 
+OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Annotated[float, WithUnit(LONG), Field(gt=0.0)])}
+
+
+class StandingPerson(Document):
+    """Whose segments the person has.
+
+    Parameters
+    ----------
+    sex
+        Row of de Leva's table.
+    foot, shank, thigh, trunk
+        Own values in place of the table's: mass, of one leg; length; mass centre from the lower joint, of the foot from
+        the ankle forwards; radius of gyration about the mass centre. The trunk has head and arms, from the hips.
+    """
+
+    sex: Sex = "male"
+    foot: Annotated[Mapping[str, float], Some(OWN)] = {}
+    shank: Annotated[Mapping[str, float], Some(OWN)] = {}
+    thigh: Annotated[Mapping[str, float], Some(OWN)] = {}
+    trunk: Annotated[Mapping[str, float], Some(OWN)] = {}
+
+    @property
+    def own(self) -> dict[str, Mapping[str, float]]:
+        """Own values by segment."""
+        given = {"foot": self.foot, "shank": self.shank, "thigh": self.thigh, "trunk": self.trunk}
+        return {name: values for name, values in given.items() if values}
+
+
 class StandingStudy(Document):
     """Everything in the description.
 
@@ -166,6 +196,8 @@ class StandingStudy(Document):
         Body mass.
     height
         Body height.
+    person
+        Sex and own values of segments; the men's table by default.
     exoskeleton
         Whether it was worn.
     device
@@ -189,6 +221,7 @@ class StandingStudy(Document):
 
     mass: Annotated[float, WithUnit(BODY)]
     height: Annotated[float, WithUnit(TALL)]
+    person: StandingPerson = StandingPerson()
     exoskeleton: bool = False
     device: File | None = None
     masses: Annotated[Mapping[str, float], Some(Masses)] = {}
