@@ -84,7 +84,7 @@ Damped = {
     name: Annotated[float, WithUnit(unit, bare=True), Field(ge=0.0)]
     for name, unit in {"damping": "N s/m", "turning_damping": "N m s/rad"}.items()
 }
-Task = Literal["standing up", "sitting down", "squat"]
+Task = Literal["standing up", "sitting down", "squat", "stance"]
 Mode = Literal["active", "passive", "off"]
 
 
@@ -106,7 +106,7 @@ class StandingTrialFiles(Document):
     mode
         Active: it helps. Passive, its motors giving nothing, or off: its hinges have friction alone.
     task
-        Sitting down ends at seat contact, a squat has no chair.
+        Sitting down ends at seat contact, a squat has no chair, a stance is that of one leg in walking.
     movement
         Which of the recording's movements of this task is used, from 1.
     strap
@@ -150,8 +150,10 @@ class StandingTrialFiles(Document):
     def _require_chair(self) -> StandingTrialFiles:
         if self.sitting and (self.chair is None or self.plates is None):
             raise refusal("sitting needs the force of a chair", "name plates, with a chair among them")
-        if self.task == "squat" and self.chair is not None:
-            raise refusal("a squat has no chair", "leave chair out, or name another task")
+        if self.task in ("squat", "stance") and self.chair is not None:
+            raise refusal(f"a {self.task} has no chair", "leave chair out, or name another task")
+        if self.task == "stance" and (self.plates is None or self.movement is not None or self.rates is not None):
+            raise refusal("a stance needs plates, and neither movement nor rates", "name its plates, start and end")
         if self.mode == "off" and self.motors is not None:
             raise refusal("motors that are off give no torque", 'leave motors out, or write mode = "passive"')
         if self.movement is not None and (self.start is not None or self.end is not None):
@@ -232,11 +234,21 @@ class StandingStudy(Document):
     tracks: Names | None = None
     trials: Annotated[tuple[StandingTrialFiles, ...], Listed("T{number}", same_place)]
 
+    @property
+    def one_leg(self) -> bool:
+        """Whether its trials are stances of walking."""
+        return self.trials[0].task == "stance"
+
     @model_validator(mode="after")
     def _require_worn(self) -> StandingStudy:
         worn = {"device": self.device, "[masses]": self.masses, "[straps]": self.straps}
         worn |= {f"{key} of {each.name}": getattr(each, key) for each in self.trials for key in ("mode", "motors")}
         odd = next((name for name, value in worn.items() if value), None)
+        walked = [each.task == "stance" for each in self.trials]
+        if any(walked) and (self.exoskeleton or not all(walked)):
+            raise refusal(
+                "a stance is of one leg, the other trials of both", "calibrate stances in a study of their own"
+            )
         if odd is not None and not self.exoskeleton:
             raise refusal(f"{odd} has no effect without an exoskeleton", "write exoskeleton = true, or leave it out")
         return self

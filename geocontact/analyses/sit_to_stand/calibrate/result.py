@@ -165,7 +165,8 @@ class StandingCalibrateResult(Result):
         subject, sites = self.given.subject, self.given.sites
         for trial in self.trials:
             write_motion(folder, subject, trial, values, self.found.solved, sites)
-        write_standing_model(folder / "model.osim", subject, values, worn=self.given.exoskeleton, sites=sites)
+        kind = {"worn": self.given.exoskeleton, "one_leg": self.given.one_leg}
+        write_standing_model(folder / "model.osim", subject, values, sites=sites, **kind)
         if self.phases[-1].name == "B":
             write_strap_case(folder / "gap", subject, self.given.trials, values, damping=sites[0].damping)
         super().write_files(folder)
