@@ -3,7 +3,7 @@
 The plane is upright; its normal is the mean horizontal direction from the left hip to the right one, and x lies in it
 forwards. Shank and thigh are the lines between the centres of their joints, the trunk is the line from the middle of
 the hips to the mass centre of all that is no leg, arms included; the foot turns as its heaviest body does from where it
-is with all coordinates at their default. Angles of both legs are averaged, their ankles too, as the chain has one of each.
+is with all coordinates at their default. Angles and ankles of both legs are averaged: the chain has one of each.
 """
 
 from __future__ import annotations

@@ -218,7 +218,9 @@ def channels_of(
 def _stance(
     files: StandingTrialFiles, subject: Subject, whole: MovedModel, plate: ForcePlate, study: Path
 ) -> StandingTrial:
-    """A stance of walking: low-passed over the whole recording, and the load of the rest of the body."""
+    """A stance of walking: low-passed over the whole recording, x from where the ankle stands, and the load of the rest
+    of the body.
+    """
     time, place = whole.time, f"[[trials]] {files.name}"
     own = FootPlate(plate, str(files.plates))
     check_trial(TrialInputs(plates=(own,), mass=subject.mass, mass_option=f"mass in {study}", moved=whole))
@@ -234,6 +236,9 @@ def _stance(
     if used.sum() < FEWEST or np.diff(np.flatnonzero(used)).max() > 1:
         what = f"{int(used.sum())} samples of stance are left of it, or those of several stances"
         raise InputError(study, place, what, "give start and end of one: sit-to-stand coordinates writes them")
+    # the origin lies where the ankle stands
+    stood = float(np.median(q[used, 0]))
+    q, load = q - [stood, 0.0, 0.0, 0.0, 0.0], load - np.outer(stood * load[:, 1], [0.0, 0.0, 1.0])
     rest = load_of_the_rest(subject, time, q, load)
     step = float(np.ptp(time)) / (len(time) - 1)
     u, at = np.gradient(q, step, axis=0), time[used]

@@ -205,9 +205,14 @@ def _report(r: StandingCalibrateResult) -> None:
     angle = errors[errors["unit"] == "deg"]["rmsd"].max()
     worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
     also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
+    on_plates = [
+        f"{what} within {worst[name]:.1f} {unit}, "
+        for name, what, unit in (("force", "ground reaction", "N"), ("centre", "centre of pressure", "mm"))
+        if name in r.given.tracks
+    ]
     say(
-        f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
-        f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
+        f"{counted(len(r.trials), 'trial')}: {''.join(on_plates)}angles within {angle:.2f}°{also} "
+        "(largest RMSD of a trial)"
     )
     if r.found.solved and fit.outcome != "contradicts":
         seen = [each for phase in r.phases for each in phase.motions]

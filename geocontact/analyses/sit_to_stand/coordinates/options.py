@@ -9,6 +9,10 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.sit_to_stand.movements.options import TALL
+from geocontact.data.plausible import Plausible
+from geocontact.data.units import Unit
+
+BELT = Plausible("the speed of a belt", Unit("m/s", "m/s", 1.0), (0.0, 8.0))
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,8 @@ class StandingCoordinatesOptions(Options):
         Plates under the feet by name or number; those of both feet, one after the other, are added up.
     chair
         The chair's plate by name or number.
+    belt
+        Speed backwards of the treadmill that is walked on [m/s]: x is then that of the belt.
     height
         Body height [m]; from the lengths of shank and thigh by default.
     axes
@@ -57,6 +63,7 @@ class StandingCoordinatesOptions(Options):
     plates: Annotated[Path | None, Requires("feet")] = None
     feet: Annotated[str | None, Requires("plates")] = None
     chair: Annotated[str | None, Requires("plates")] = None
+    belt: Annotated[float, BELT] = 0.0
     height: Annotated[float | None, TALL] = None
     axes: Annotated[Expression | None, Requires("plates")] = None
     c3d_unit: C3dUnit = None

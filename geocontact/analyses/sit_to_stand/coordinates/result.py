@@ -48,12 +48,15 @@ STUDY, ANGLES = "study.toml", "coordinates.mot"
 FAR_OUT, FAR_APART = 15.0, 10.0
 """Degrees out of the plane, and between both legs, root mean square, from which a warning says so; invented."""
 MEANT = [
-    "Shank and thigh are the lines between the centres of their joints, the trunk is that from the hips to the mass "
-    "centre of trunk, head and arms; the foot turns from where it is with all coordinates at their default.",
+    "Shank and thigh are the lines between the centres of their joints.",
+    "The trunk is the line from the hips to the mass centre of trunk, head and arms.",
+    "The foot turns from where it is with all coordinates at their default.",
     "The plane is upright and across the line of the hips, its mean over the recording.",
     "Segments are those of the model: masses of one leg, means of both.",
     "Noise and jerk of study.toml are invented, of markers on the skin: give your own.",
 ]
+FLAT, SLIDING = np.radians(6.0), 0.1
+"""Turn of a flat foot [rad], and speed of one from which a warning says so [m/s]; invented."""
 UNITS = {"mass": "kg", "length": "m", "centre": "m", "gyration": "m"}
 NOISE_UNITS = {"length": "m", "angle": "rad", "rate": "rad/s", "force": "N", "centre": "m"}
 
@@ -224,6 +227,8 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
         reserve(f"{worst} is out of the plane by {out['rms'].max():.0f}° (RMS): a planar chain shortens it")
     if len(turning) and turning["rms"].max() > FAR_APART:
         reserve(f"the legs do not move alike, by {turning['rms'].max():.0f}° (RMS): ask for one `leg`")
+    for one in result.spans:
+        _doubt_sliding(result, one)
     if result.spans:
         say(f"{counted(len(result.spans), 'trial')}: {', '.join(f'{one.task} {one.name}' for one in result.spans)}")
     else:
@@ -232,6 +237,16 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
         )
     note("out_of_plane_deg", dict(zip(out["of"], out["rms"], strict=True)))
     return result
+
+
+def _doubt_sliding(r: StandingCoordinatesResult, one: TaskSpan) -> None:
+    """A warning for a flat foot that moves along the ground."""
+    inside = (r.time >= one.start) & (r.time <= one.end) & (np.abs(r.given.moved.q[:, 2]) < FLAT)
+    if inside.sum() < FEWEST // 2:
+        return
+    speed = float(np.polyfit(r.time[inside], r.given.moved.q[inside, 0], 1)[0])
+    if abs(speed) > SLIDING:
+        reserve(f"{one.name}: the flat foot moves at {speed:.2f} m/s: on a treadmill give the speed of its `belt`")
 
 
 coordinates = Job("sit-to-stand coordinates", StandingCoordinatesOptions, read, run)
