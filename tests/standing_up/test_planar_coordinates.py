@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.planar_coordinates import BodyLeg, PlanarMotion, planar_motion
-from tests.standing_up.whole_body import values_of, whole_body
+from meshes.whole_body import values_of, whole_body
 
 SUBJECT = Subject(63.0, 1.68, sex="female", own={"shank": {"length": 0.41}})
 HEADING = 0.7

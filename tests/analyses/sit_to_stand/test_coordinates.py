@@ -7,57 +7,32 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
-from geocontact.io.opensim.osim_writer import write_osim
-from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.stance import chain_of
+from meshes.whole_body import HEADING, SAMPLE, main, values_of, whole_body, write_body, write_plates
 from tests.cli.calls import MESHES
 from tests.recording import opened
-from tests.standing_up.whole_body import values_of, whole_body
 
-SAMPLE, HEADING, SHARE = MESHES / "standing_up", 0.6, 0.35
 SUBJECT = Subject()
 PLATES = {"feet": "right_force,left_force", "chair": "chair_force"}
 pytestmark = pytest.mark.filterwarnings("ignore::geocontact.InputWarning")
 
 
-def plates_of(folder: Path, time: np.ndarray, loads: dict[str, np.ndarray]) -> None:
-    """Loads of the plane turned into the laboratory; force, and moment about its origin."""
-    names, values = [], []
-    for name, load in loads.items():
-        names += [f"{name}_force_{kind}{axis}" for kind in "vp" for axis in "xyz"]
-        names += [f"{name}_torque_{axis}" for axis in "xyz"]
-        turned = Rotation.from_euler("y", HEADING).apply(load.reshape(-1, 3)).reshape(len(time), 6)
-        values += [turned[:, :3], np.zeros((len(time), 3)), turned[:, 3:]]
-    write_storage(folder / "plates.mot", time, names, np.hstack(values), title="plates", degrees=False)
-
-
 def in_space(folder: Path) -> dict[str, Any]:
     """The first shipped trial as a model, its motion, and plates: both feet's share the load unevenly."""
-    table = read_table(SAMPLE / "T1_coordinates.sto")
-    q = np.column_stack([table.column(name) for name in COORDINATES])
-    q[:, 2:] = np.radians(q[:, 2:])
-    model = whole_body(SUBJECT)
-    write_osim(folder / "body.osim", model, balls=[], forces=[], note="made of a chain")
-    values = values_of(model, SUBJECT, q, HEADING, np.zeros((len(q), 3)))
-    printed = np.where([c.kind == "rotational" for c in model.coordinates], np.degrees(values), values)
-    names = [c.name for c in model.coordinates]
-    write_storage(folder / "ik.mot", table.time, names, printed, title="body", degrees=True)
-    own = read_table(SAMPLE / "T1_plates.mot")
-    loads = {}
-    for name in ("feet", "chair"):
-        kinds = (f"{name}_force_v", f"{name}_force_p", f"{name}_torque_")
-        force, place, moment = (np.column_stack([own.column(f"{of}{a}") for a in "xyz"]) for of in kinds)
-        loads[name] = np.hstack([force, moment + np.cross(place, force)])
-    feet = loads.pop("feet")
-    plates_of(folder, own.time, {"right": SHARE * feet, "left": (1.0 - SHARE) * feet, **loads})
+    main(folder)
     return {"model": folder / "body.osim", "plates": folder / "plates.mot", "height": SUBJECT.height, **PLATES}
+
+
+def test_shipped_files_are_those_that_are_made(tmp_path: Path) -> None:
+    main(tmp_path)
+    for file in (MESHES / "whole_body").iterdir():
+        assert file.read_bytes() == (tmp_path / file.name).read_bytes(), file
 
 
 def test_a_shipped_trial_is_found_again_from_a_whole_body(tmp_path: Path) -> None:
@@ -90,14 +65,11 @@ def walked(folder: Path, belt: float = 0.0) -> dict[str, Any]:
     q[:, 3] -= 0.4 * s
     q[:, 0] -= belt * time
     model = whole_body(SUBJECT)
-    write_osim(folder / "body.osim", model, balls=[], forces=[], note="made of a chain")
-    values = values_of(model, SUBJECT, q, HEADING, np.zeros((len(q), 3)))
-    printed = np.where([c.kind == "rotational" for c in model.coordinates], np.degrees(values), values)
-    write_storage(folder / "ik.mot", time, [c.name for c in model.coordinates], printed, title="body", degrees=True)
+    write_body(folder, model, time, values_of(model, SUBJECT, q, HEADING, np.zeros((len(q), 3))))
     up = 600.0 * np.sin(np.pi * s) ** 0.5
     ahead = 0.4 - belt * time - 0.02 + 0.12 * s
     load = np.column_stack([0.0 * up, up, 0.0 * up, 0.0 * up, 0.0 * up, ahead * up])
-    plates_of(folder, time, {"right": load})
+    write_plates(folder, time, {"right": load})
     return {"model": folder / "body.osim", "plates": folder / "plates.mot", "feet": "right_force", "leg": "right"}
 
 

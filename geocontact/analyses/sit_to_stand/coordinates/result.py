@@ -1,12 +1,11 @@
 """Planar coordinates of a whole body's motion: `geocontact sit-to-stand coordinates`, `gc.sit_to_stand.coordinates`.
 
 >>> import geocontact as gc
->>> names = {"joints": "hip_flexion,knee_flexion,ankle_flexion"}
->>> try:
-...     gc.sit_to_stand.coordinates("meshes/leg_swing.mot", model="meshes/leg.osim", **names)
-... except gc.InputError as error:
-...     print(error)
-meshes/leg.osim: no coordinate hip_flexion_r; …
+>>> body = "meshes/whole_body/"
+>>> plates = {"plates": body + "plates.mot", "feet": "right_force,left_force", "chair": "chair_force"}
+>>> result = gc.sit_to_stand.coordinates(body + "ik.mot", model=body + "body.osim", **plates)
+>>> print(result.sentences[0])
+151 frames, both legs about their mean: segments are out of the plane by 0.0° (RMS …
 """
 
 from __future__ import annotations
@@ -98,6 +97,12 @@ class StandingCoordinatesResult(Result):
         """Each coordinate over time [m, rad]."""
         return dict(zip(COORDINATES, self.given.moved.q.T, strict=True))
 
+    @property
+    def segments(self) -> dict[tuple[str, str], float]:
+        """Mass (of one leg), length, mass centre and radius of gyration of each segment [kg, m]."""
+        own = self.given.moved.own
+        return {(name, key): value for name, values in own.items() for key, value in values.items()}
+
     def tables(self) -> dict[str, pd.DataFrame]:
         """`deviations` from the plane and between the legs, `segments`."""
         rows = []
@@ -107,7 +112,7 @@ class StandingCoordinatesResult(Result):
         for name, off in moved.apart.items():
             unit, factor = ("mm", 1e3) if name in COORDINATES[:2] else ("deg", float(np.degrees(1.0)))
             rows.append(("right less left", name, unit, *_sizes(factor * off)))
-        segments = [(name, key, UNITS[key], value) for name, own in moved.own.items() for key, value in own.items()]
+        segments = [(name, key, UNITS[key], value) for (name, key), value in self.segments.items()]
         return {
             "deviations": pd.DataFrame(rows, columns=["what", "of", "unit", "rms", "largest"]),
             "segments": pd.DataFrame(segments, columns=["segment", "quantity", "unit", "value"]),

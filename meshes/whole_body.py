@@ -1,14 +1,26 @@
-"""A whole body in space that moves as the planar chain does, turned in the laboratory; legs may differ."""
+"""A whole body in space that moves as the planar chain does, turned in the laboratory; legs may differ.
+
+`python -m meshes.whole_body` writes the first trial of `standing_up` so, with a plate under each foot and the chair's:
+body.osim, ik.mot and plates.mot in `whole_body`. Synthetic, as that trial is.
+"""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.multibody.joint import cardan
 from geocontact.data.multibody.model import Body, Multibody
-from geocontact.standing_up.chain import Subject
+from geocontact.io.opensim.osim_writer import write_osim
+from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.text.tables import read_table
+from geocontact.standing_up.chain import COORDINATES, Subject
 
+HERE = Path(__file__).resolve().parent
+SAMPLE, HEADING, SHARE = HERE / "standing_up", 0.6, 0.35
+"""Trial, heading about y [rad], and the right foot's share of the load."""
 WIDE = 0.09
 """From the middle to either hip [m]."""
 X, Y, Z = np.eye(3)
@@ -56,3 +68,43 @@ def values_of(model: Multibody, subject: Subject, q: np.ndarray, heading: float,
         for k, name in enumerate(("hip_flexion", "knee_angle", "ankle_angle")):
             made[f"{name}_{end}"] = -q[:, 5 - k] + side * off[:, k]
     return np.column_stack([made.get(c.name, np.zeros(len(q))) for c in model.coordinates])
+
+
+def write_body(folder: Path, model: Multibody, time: np.ndarray, values: np.ndarray) -> None:
+    """body.osim and ik.mot."""
+    write_osim(folder / "body.osim", model, note="Synthetic: made of a planar chain by meshes/whole_body.py.")
+    printed = np.where([c.kind == "rotational" for c in model.coordinates], np.degrees(values), values)
+    names = [c.name for c in model.coordinates]
+    write_storage(folder / "ik.mot", time, names, printed, title="A whole body, synthetic", degrees=True)
+
+
+def write_plates(folder: Path, time: np.ndarray, loads: dict[str, np.ndarray]) -> None:
+    """plates.mot: force and moment about the origin of the plane, turned into the laboratory."""
+    names, values = [], []
+    for name, load in loads.items():
+        names += [f"{name}_force_{kind}{axis}" for kind in "vp" for axis in "xyz"]
+        names += [f"{name}_torque_{axis}" for axis in "xyz"]
+        turned = Rotation.from_euler("y", HEADING).apply(load.reshape(-1, 3)).reshape(len(time), 6)
+        values += [turned[:, :3], np.zeros((len(time), 3)), turned[:, 3:]]
+    write_storage(folder / "plates.mot", time, names, np.hstack(values), title="Plates, synthetic", degrees=False)
+
+
+def main(folder: Path = HERE / "whole_body") -> None:
+    """Write the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    table, subject = read_table(SAMPLE / "T1_coordinates.sto"), Subject()
+    q = np.column_stack([table.column(name) for name in COORDINATES])
+    q[:, 2:] = np.radians(q[:, 2:])
+    model = whole_body(subject)
+    write_body(folder, model, table.time, values_of(model, subject, q, HEADING, np.zeros((len(q), 3))))
+    own, loads = read_table(SAMPLE / "T1_plates.mot"), {}
+    for name in ("feet", "chair"):
+        kinds = (f"{name}_force_v", f"{name}_force_p", f"{name}_torque_")
+        force, place, moment = (np.column_stack([own.column(f"{of}{a}") for a in "xyz"]) for of in kinds)
+        loads[name] = np.hstack([force, moment + np.cross(place, force)])
+    feet = loads["feet"]
+    write_plates(folder, own.time, {"right": SHARE * feet, "left": (1.0 - SHARE) * feet, "chair": loads["chair"]})
+
+
+if __name__ == "__main__":
+    main()
