@@ -38,6 +38,8 @@ PAUSE = 1.0
 BESIDE = 0.5
 """Time before or after a passage of the hip [s] beyond which seat-off or seat contact is none of it."""
 Kind = Literal["standing up", "sitting down", "squat", "rising", "going down"]
+TASKS = {"rising": "standing up", "going down": "sitting down"}
+"""What a movement is in a study where no chair says it."""
 Times = Float[np.ndarray, " t"]
 
 

@@ -34,7 +34,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from geocontact.data.body_segments import Sex
-from geocontact.data.plausible import KG, N_M, N, Plausible
+from geocontact.data.plausible import KG, N_M, TALL, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, m, mm
 from geocontact.io.documents import (
@@ -52,7 +52,6 @@ from geocontact.io.documents import (
 )
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
-TALL = Plausible("the height of a person", m, (0.8, 2.5))
 LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {

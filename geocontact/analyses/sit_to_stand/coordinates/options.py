@@ -8,8 +8,7 @@ from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, TimeSpan
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.sit_to_stand.movements.options import TALL
-from geocontact.data.plausible import Plausible
+from geocontact.data.plausible import TALL, Plausible
 from geocontact.data.units import Unit
 
 BELT = Plausible("the speed of a belt", Unit("m/s", "m/s", 1.0), (0.0, 8.0))

@@ -25,14 +25,13 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
 from geocontact.analyses.sit_to_stand.coordinates.read import PlanarRecording, read
-from geocontact.analyses.sit_to_stand.movements.result import TASKS
 from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.standing_trials import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import COORDINATES, Subject
-from geocontact.standing_up.movements import hip_height, movements_of
+from geocontact.standing_up.movements import TASKS, hip_height, movements_of
 from geocontact.standing_up.person_segments import SHARES
 from geocontact.standing_up.stance import JERK, SIZES, smooth, stances
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade
