@@ -25,7 +25,7 @@ from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.sphere_contact import OpenSimSphereLaw, StribeckFriction, smooth_sphere_wrench, together
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
-from geocontact.standing_up.person_segments import Segment, segments_of
+from geocontact.standing_up.person_segments import PersonSegment, segments_of
 from geocontact.standing_up.standing_model import GroundLaw, ModelConstants, StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, searched
 from geocontact.standing_up.worn_device import SHIPPED_DEVICE, WornDevice
@@ -61,7 +61,7 @@ class Subject:
     own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @property
-    def segments(self) -> dict[str, Segment]:
+    def segments(self) -> dict[str, PersonSegment]:
         """Foot, shank, thigh and trunk in kg and m, masses of both sides."""
         return segments_of(self.mass, self.height, self.sex, self.own)
 
@@ -84,7 +84,7 @@ def leg_chain(subject: Subject) -> Multibody:
     return Multibody("sit to stand", tuple(bodies), tuple(joints), (), GRAVITY)
 
 
-def _body(name: str, segment: Segment, along: np.ndarray, height: float) -> Body:
+def _body(name: str, segment: PersonSegment, along: np.ndarray, height: float) -> Body:
     inertia = segment.mass * segment.gyration**2
     return Body(name, segment.mass, along * segment.centre + Y * height, inertia * np.eye(3))
 

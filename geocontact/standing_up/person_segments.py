@@ -21,7 +21,7 @@ VALUES = ("mass", "length", "centre", "gyration")
 
 
 @dataclass(frozen=True)
-class Segment:
+class PersonSegment:
     """Mass (both sides), length, mass centre and radius of gyration about z, from the lower joint upwards; of the foot
     from the ankle forwards, of the trunk from the hip.
 
@@ -34,23 +34,25 @@ class Segment:
     gyration: float
 
 
-SHARES: dict[Sex, dict[str, Segment]] = {
+SHARES: dict[Sex, dict[str, PersonSegment]] = {
     "male": {
-        "foot": Segment(2 * 0.0137, 0.1482, 0.20, 0.245),
-        "shank": Segment(2 * 0.0433, 0.2529, 1.0 - 0.4459, 0.249),
-        "thigh": Segment(2 * 0.1416, 0.2425, 1.0 - 0.4095, 0.329),
-        "trunk": Segment(1.0 - 2 * (0.0137 + 0.0433 + 0.1416), 0.3465, 0.53, 0.44),
+        "foot": PersonSegment(2 * 0.0137, 0.1482, 0.20, 0.245),
+        "shank": PersonSegment(2 * 0.0433, 0.2529, 1.0 - 0.4459, 0.249),
+        "thigh": PersonSegment(2 * 0.1416, 0.2425, 1.0 - 0.4095, 0.329),
+        "trunk": PersonSegment(1.0 - 2 * (0.0137 + 0.0433 + 0.1416), 0.3465, 0.53, 0.44),
     },
     "female": {
-        "foot": Segment(2 * 0.0129, 0.1316, 0.16, 0.279),
-        "shank": Segment(2 * 0.0481, 0.2528, 1.0 - 0.4416, 0.267),
-        "thigh": Segment(2 * 0.1478, 0.2124, 1.0 - 0.3612, 0.364),
-        "trunk": Segment(1.0 - 2 * (0.0129 + 0.0481 + 0.1478), 0.3543, 0.57, 0.36),
+        "foot": PersonSegment(2 * 0.0129, 0.1316, 0.16, 0.279),
+        "shank": PersonSegment(2 * 0.0481, 0.2528, 1.0 - 0.4416, 0.267),
+        "thigh": PersonSegment(2 * 0.1478, 0.2124, 1.0 - 0.3612, 0.364),
+        "trunk": PersonSegment(1.0 - 2 * (0.0129 + 0.0481 + 0.1478), 0.3543, 0.57, 0.36),
     },
 }
 
 
-def segments_of(mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[str, float]]) -> dict[str, Segment]:
+def segments_of(
+    mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[str, float]]
+) -> dict[str, PersonSegment]:
     """Segments of a person in kg and m.
 
     Parameters
@@ -61,7 +63,7 @@ def segments_of(mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[
         The person's own `VALUES` by segment, masses of one leg; the rest is the table's, centre and radius in
         proportion to the length, and the trunk has what the legs leave of the mass.
     """
-    found = {}
+    found: dict[str, PersonSegment] = {}
     for name, share in SHARES[sex].items():
         given, sides = own.get(name, {}), 2.0 if name in LEG else 1.0
         length = given.get("length", share.length * height)
@@ -69,5 +71,5 @@ def segments_of(mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[
         if name == "trunk" and "mass" not in given and any("mass" in own.get(leg, {}) for leg in LEG):
             heavy = mass - sum(found[leg].mass for leg in LEG)
         centre, gyration = given.get("centre", share.centre * length), given.get("gyration", share.gyration * length)
-        found[name] = Segment(heavy, length, centre, gyration)
+        found[name] = PersonSegment(heavy, length, centre, gyration)
     return found

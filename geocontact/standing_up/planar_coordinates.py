@@ -58,7 +58,7 @@ class PlanarMotion:
 
     @property
     def turn(self) -> Rotation:
-        """Of vectors of the ground's frame into that of the plane: x forwards, y up, z right."""
+        """Rotation of vectors of the ground's frame into that of the plane: x forwards, y up, z right."""
         return Rotation.from_matrix(np.stack([self.forwards, UP, np.cross(self.forwards, UP)]))
 
 
@@ -131,7 +131,8 @@ def _groups(model: Multibody, legs: Mapping[str, BodyLeg]) -> dict[str, list[Bod
     below: dict[str, set[str]] = {}
     for joint in reversed(model.joints):
         below[joint.child] = {joint.child}.union(*(below[j.child] for j in model.joints if j.parent == joint.child))
-    found, taken = {}, set()
+    found: dict[str, list[Body]] = {}
+    taken: set[str] = set()
     for side, leg in legs.items():
         foot, shank, thigh = (below[joint.child] for joint in (leg.ankle, leg.knee, leg.hip))
         parts = {"foot": foot, "shank": shank - foot, "thigh": thigh - shank}

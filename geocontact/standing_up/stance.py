@@ -32,7 +32,7 @@ from geocontact.standing_up.standing_model import ModelConstants, StandingModel
 
 LEG = ("fore_aft", "upwards", "foot", "shank", "thigh")
 CUTOFF = 12.0
-"""Of coordinates and plates [Hz]; walking is faster than standing up."""
+"""Cut-off of coordinates and plates [Hz]; walking is faster than standing up."""
 LEAST = 150.0
 """Force up from which a sample is used [N]."""
 LIFTED = 1.0
