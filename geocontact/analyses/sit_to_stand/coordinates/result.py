@@ -5,7 +5,7 @@
 >>> plates = {"plates": body + "plates.mot", "feet": "right_force,left_force", "chair": "chair_force"}
 >>> result = gc.sit_to_stand.coordinates(body + "ik.mot", model=body + "body.osim", **plates)
 >>> print(result.sentences[0])
-151 frames, both legs about their mean: segments are out of the plane by 0.0° (RMS …
+181 frames, both legs about their mean: segments are out of the plane by 0.0° (RMS …
 """
 
 from __future__ import annotations
