@@ -39,7 +39,7 @@ from geocontact.below_knee_prosthesis.design.foot_map import (
     with_angles_kept,
     with_torque_kept,
 )
-from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, sagittal_leg
+from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, needed_of, sagittal_leg
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
@@ -123,19 +123,23 @@ def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask,
     force = weight * reactions(motion.time, lasting)[0]
     kept = force[:, 1] > LOADED * weight
     place, axis = leg.turn.inv(), poses.rotation.apply([1.0, 0.0, 0.0])
+    pitch, thigh, bars = np.arcsin(axis[:, 1]), np.arctan2(-up[:, 0], up[:, 1]), sagittal_leg(leg, vsf_foot().keel)
+    hip, back = bodies["pelvis"].apply(leg.hip), bodies["pelvis"].rotation.apply([0.0, 1.0, 0.0])
     exact = FootTask(
         time=motion.time[kept],
-        pitch=np.arcsin(axis[kept, 1]),
-        thigh=np.arctan2(-up[kept, 0], up[kept, 1]),
+        pitch=pitch[kept],
+        thigh=thigh[kept],
         load=force[kept, 1],
         forward=force[kept, 0],
         falling=0.3,
         ankle=place.apply(leg.ankle - leg.keel),
         bushing=place.apply(leg.bushing - leg.keel),
         knee=place.apply(-leg.keel),
-        leg=sagittal_leg(leg, vsf_foot().keel),
+        leg=bars,
         leg_length=leg.thigh + leg.shank,
         weight=weight,
+        pelvis=np.arctan2(-back[kept, 0], back[kept, 1]),
+        needed=needed_of(bars, motion.time, np.column_stack([hip[:, :2], thigh, pitch]))[kept],
     )
     return exact, {"pelvis": bodies["pelvis"], "thigh": bodies["thigh"], "shank": poses}, motion.time
 

@@ -96,11 +96,11 @@ def task_of(s: Stance) -> FootTask:
     leg = s.motion.leg
     values = s.motion.at(s.time)
     values[:, 3:5] = s.found.q[:, :2]
-    hip = recorded_tree(leg).poses(values)["pelvis"].apply(leg.hip)
+    pelvis = recorded_tree(leg).poses(values)["pelvis"]
     weight = leg.person.mass * GRAVITY
     rate = pose_rate(s.time, s.poses)
     recorded = RecordedStance(s.time, s.poses, rate, s.fulcrum, s.force, s.along_foot("ground"), weight)
-    return foot_task(recorded, hip, leg, s.foot.keel, BELOW)
+    return foot_task(recorded, pelvis, leg, s.foot.keel, BELOW)
 
 
 def stance_outcomes(s: Stance) -> dict[str, float]:

@@ -20,32 +20,17 @@ import numpy as np
 
 from benchmarks.one_core import pin
 from benchmarks.prosthesis.real_foot import WALKS, markers, stances
-from geocontact.data.multibody.model import Body, Multibody
-from geocontact.dynamics.equations import equations_of_motion
-from geocontact.dynamics.inverse_dynamics import generalised_forces
-from geocontact.dynamics.tree import tree_of
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT, Subject, ground_on_feet, leg_chain
-from geocontact.standing_up.standing_model import StandingModel
+from geocontact.standing_up.chain import SOUGHT, Subject
+from geocontact.standing_up.stance import CUTOFF, JERK, LEAST, MOST_TURN, SIZES, load_of_the_rest, standing_leg
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial
 
 HERE = Path(__file__).resolve().parents[1]
 FEET = {"right": "R", "left": "L"}
 CALIBRATION, HELD_OUT = ("right_1", "left_1"), ("right_2",)
-CUTOFF = 12.0
-"""Of markers and plates [Hz]; walking is faster than standing up."""
-MARGIN = 150.0
-"""Force from which a step is used [N]."""
-LIFTED = 1.0
-"""Force [N] that keeps the centre of pressure a number where the search lifts the foot; 0.1 mm under a step."""
-MOST_TURN = float(np.radians(30.0))
-"""Forward turn of the foot up to which a step is used: then the toes bend, which a rigid foot cannot."""
-NOISE = StandingNoise(length=5e-3, angle=float(np.radians(2.0)), rate=0.1, force=10.0, centre=5e-3)
-"""What is told; markers on soft tissue, and ankle and hip by one marker each."""
-JERK = (1500.0, 6000.0)
-"""Of foot and joints [m/s^3, rad/s^3], some times those of a step."""
-JERKY = CostWeights(foot_jerk=JERK[0], joint_jerk=JERK[1])
-LEG = ("fore_aft", "upwards", "foot", "shank", "thigh")
+NOISE = StandingNoise(**SIZES)
+"""Markers on soft tissue, and ankle and hip by one marker each."""
+JERKY = CostWeights(**JERK)
 
 
 def main() -> None:
@@ -80,7 +65,7 @@ def steps(options: argparse.Namespace) -> dict[str, Any]:
         def build(these: Any, begin: Any, free: Any = free, at: Any = start) -> Any:
             tracks = ("coordinates", "force", "centre")
             if not free:
-                of = {"free": (), "tracks": tracks, "small": {}, "held": at, "start": at, "jerk_sizes": JERK}
+                of = {"free": (), "tracks": tracks, "small": {}, "held": at, "start": at, "jerk_sizes": JERKY.jerk}
                 return standing_phase(model, subject, these, NOISE, **of)
             return phase_a(model, subject, these, NOISE, free=free, tracks=tracks, start=begin, weights=JERKY)
 
@@ -97,7 +82,7 @@ def told(one: Any, trials: list[StandingTrial]) -> dict[str, Any]:
     rows = {}
     for trial, motion, seen in zip(trials, one.found.motions, one.motions, strict=True):
         model = seen_in(one.model, motion, one.found.p, trial.time, trial.name)
-        loaded = trial.force[:, 1] > 2.0 * MARGIN
+        loaded = trial.force[:, 1] > 2.0 * LEAST
         off = np.sqrt(np.mean((model.force - trial.force) ** 2, axis=0))
         rows[trial.name] = {
             "GRF [N]": off.tolist(),
@@ -110,32 +95,6 @@ def told(one: Any, trials: list[StandingTrial]) -> dict[str, Any]:
         }
     numbers = {n.name: [n.value, n.lower, n.upper, n.verdict] for n in one.numbers.numbers}
     return {"ending": one.found.ending, "iterations": one.found.iterations, "parameters": numbers, "steps": rows}
-
-
-def leg_alone(subject: Subject) -> Multibody:
-    """Foot, shank and thigh of one leg."""
-    both = leg_chain(subject)
-    bodies = tuple(_half(body) for body in both.bodies if body.name in LEG)
-    return Multibody("one leg", bodies, both.joints[: len(LEG)], (), both.gravity)
-
-
-def _half(body: Body) -> Body:
-    return Body(body.name, 0.5 * body.mass, body.centre, 0.5 * body.inertia)
-
-
-def standing_leg(subject: Subject) -> StandingModel:
-    """Five coordinates, two torques, and the load on the thigh given over time."""
-    from casadi import SX, vertcat
-
-    tree = tree_of(leg_alone(subject))
-    p, torque, load = SX.sym("p", len(FOOT_PARAMETERS)), SX.sym("torque", 2), SX.sym("load", 3)
-    ground = ground_on_feet(tree, p)
-    of_the_rest = {"thigh": (vertcat(load[0], load[1], 0.0), vertcat(0.0, 0.0, load[2]))}
-    along = {name: torque[k] for k, name in enumerate(("ankle", "knee"))}
-    e = equations_of_motion(tree, loads={**ground, **of_the_rest}, along=along, inputs=[torque, load], parameters=[p])
-    (force, moment), none = ground["foot"], SX(0, 1)
-    centre = moment[2] / (force[1] + LIFTED)
-    return StandingModel(e, FOOT_PARAMETERS, force[:2, :], centre, none, none, SX(0), SX(0), 3)
 
 
 def recorded_steps(data: Path) -> tuple[dict[str, StandingTrial], Subject]:
@@ -158,7 +117,7 @@ def recorded_steps(data: Path) -> tuple[dict[str, StandingTrial], Subject]:
         plate = plate_named(plates, foot.plate, Path(walk.plates), "plate")
         for k, (begin, end) in enumerate(stances(plate.time, plate.wrench.force[:, 1])):
             load = loads[name]
-            inside = (time >= begin) & (time <= end) & (load[:, 1] > MARGIN)
+            inside = (time >= begin) & (time <= end) & (load[:, 1] > LEAST)
             if inside.sum() > 30:
                 found[f"{name}_{k + 1}"] = _step(f"{name}_{k + 1}", FEET[name], time, smooth, load, inside, subject)
     return found, subject
@@ -177,8 +136,6 @@ def _step(
     name: str, side: str, time: np.ndarray, at: dict[str, np.ndarray], load: np.ndarray, inside: Any, subject: Subject
 ) -> StandingTrial:
     """Coordinates of the leg, the plate, and the load at the hip that balances both."""
-    from casadi import Function
-
     heel, toe, ankle, knee, hip = (at[f"{side}.{part}"] for part in ("Heel", "MT5", "Ankle", "Knee", "ASIS"))
     flat = inside & (load[:, 1] > 0.8 * 9.81 * subject.mass)
     turn = np.arctan2(*(toe - heel).T[::-1])
@@ -188,15 +145,8 @@ def _step(
     start = float(np.median(ankle[flat, 0]))
     load = load - np.outer(start * load[:, 1], [0.0, 0.0, 1.0])
     q = np.column_stack([ankle - [start, 0.0], turn, -lean[0] - turn, -lean[1] + lean[0]])
-    step = time[1] - time[0]
-    u = np.gradient(q, step, axis=0)
-    a = np.gradient(u, step, axis=0)
-    tree = tree_of(leg_alone(subject))
-    # what accelerates the leg along its foot's coordinates: force, and moment about the ankle
-    needed = Function("needed", [tree.q, tree.u, tree.a], [generalised_forces(tree)[:3, :]]).map(len(q))
-    balance = needed(q.T, u.T, a.T).full().T
-    about = balance[:, 2] + q[:, 0] * balance[:, 1] - q[:, 1] * balance[:, 0]
-    rest = np.column_stack([balance[:, :2], about]) - load
+    u = np.gradient(q, time[1] - time[0], axis=0)
+    rest = load_of_the_rest(subject, time, q, load)
     inside = inside & (turn > -MOST_TURN)
     centre = load[inside, 2] / load[inside, 1]
     return StandingTrial(

@@ -184,6 +184,7 @@ ENTRIES = (
     Entry("sit-to-stand predict", "sit_to_stand.predict", "StandingPredictOptions", "result:predict"),
     Entry("sit-to-stand design", "sit_to_stand.design", "StandingDesignOptions", "result:design"),
     Entry("sit-to-stand compare", "sit_to_stand.compare", "StandingCompareOptions", "result:compare"),
+    Entry("sit-to-stand coordinates", "sit_to_stand.coordinates", "StandingCoordinatesOptions", "result:coordinates"),
     Entry("sit-to-stand movements", "sit_to_stand.movements", "StandingMovementsOptions", "result:movements"),
     Entry("sit-to-stand device", "sit_to_stand.device", "StandingDeviceOptions", "result:device"),
 )

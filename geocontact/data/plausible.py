@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from numbers import Real
 
 from geocontact.data.errors import InputError
-from geocontact.data.units import UNITS, MPa, Unit, deg, kPa, mm, mmHg, percent
+from geocontact.data.units import UNITS, MPa, Unit, deg, kPa, m, mm, mmHg, percent
 
 PLAIN = Unit("", "1", 1.0)
 N, HZ, S, KG = Unit("N", "N", 1.0), Unit("Hz", "Hz", 1.0), Unit("s", "s", 1.0), Unit("kg", "kg", 1.0)
@@ -214,6 +214,7 @@ DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (0.0, 1e4))
 SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
+TALL = Plausible("the height of a person", m, (0.8, 2.5))
 
 DEVICE = "hinges and parts of worn devices"
 VISCOUS = Plausible("the viscous friction of a hinge of a device", N_M_S, (0.0, 500.0), (0.01, 50.0), why=DEVICE)

@@ -25,6 +25,7 @@ from geocontact.standing_up.numbers_that_ran import (
 from geocontact.standing_up.phase import PhaseProblem, sizes_of
 from geocontact.standing_up.phases import TRACKS, phase_a, phase_b
 from geocontact.standing_up.selection import SelectedParameter, selected, trials_information
+from geocontact.standing_up.stance import standing_leg
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.trial_result import TrialResult, trial_result
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials, seen_in
@@ -40,7 +41,9 @@ def calibrated_phases(
     given: StandingUpTrials, search: PhaseSearch, progress: PhaseProgress | None = None
 ) -> tuple[CalibratedPhase, ...]:
     """A, and with an exoskeleton B with the feet as A found them; only A where its search has no answer."""
-    if given.exoskeleton:
+    if given.one_leg:
+        model = standing_leg(given.subject)
+    elif given.exoskeleton:
         model = strapped(given.subject, given.sites, seated=given.seated)
     else:
         model = feet_on_ground(given.subject, seated=given.seated)

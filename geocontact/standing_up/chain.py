@@ -1,9 +1,8 @@
 """Bodies that stand up: feet, shanks, thighs and trunk in the sagittal plane, on the ground and on the chair.
 
 x points forwards, y up, turns are about z. Both legs move alike, so that their masses are added and the ground's force
-is that of both feet. Masses, mass centres and radii of gyration are fractions of body mass and segment length for men
-(de Leva (1996), Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters, J Biomech 29, 1223-1230); head, arms
-and trunk are one rigid body, whose numbers are rounded from that table with the arms hanging.
+is that of both feet. Segments are those of `person_segments`; head, arms and trunk are one
+rigid body.
 
 It is given over time as force forwards and up and as moment about the ground's origin, so that no point of it has to be
 known. After seat-off it is 0, and the trial goes on as one that begins there.
@@ -11,12 +10,14 @@ known. After seat-off it is 0, and the trial goes on as one that begins there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.data.body_segments import Sex
 from geocontact.data.multibody.joint import prismatic, revolute
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics.equations import equations_of_motion
@@ -24,6 +25,7 @@ from geocontact.dynamics.inverse_dynamics import Wrenches
 from geocontact.dynamics.sphere_contact import OpenSimSphereLaw, StribeckFriction, smooth_sphere_wrench, together
 from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.standing_up.person_segments import PersonSegment, segments_of
 from geocontact.standing_up.standing_model import GroundLaw, ModelConstants, StandingModel
 from geocontact.standing_up.strap_sites import ContactParameter, searched
 from geocontact.standing_up.worn_device import SHIPPED_DEVICE, WornDevice
@@ -42,51 +44,49 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Subject:
-    """Body mass [kg] and height [m], and the exoskeleton where one is worn."""
+    """Body mass [kg] and height [m], the exoskeleton where one is worn, and whose segments the person has.
+
+    Parameters
+    ----------
+    sex
+        Row of de Leva's table.
+    own
+        The person's own values of segments, as `person_segments.segments_of` takes them.
+    """
 
     mass: float = 70.0
     height: float = 1.75
     device: WornDevice = SHIPPED_DEVICE
+    sex: Sex = "male"
+    own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
-
-@dataclass(frozen=True)
-class _Segment:
-    """Mass (both sides), length, mass centre and radius of gyration, of body mass, height, length and length."""
-
-    mass: float
-    length: float
-    centre: float
-    gyration: float
-
-
-FOOT = _Segment(2 * 0.0137, 0.1482, 0.20, 0.245)
-SHANK = _Segment(2 * 0.0433, 0.2529, 1.0 - 0.4459, 0.249)
-THIGH = _Segment(2 * 0.1416, 0.2425, 1.0 - 0.4095, 0.329)
-TRUNK = _Segment(1.0 - 2 * (0.0137 + 0.0433 + 0.1416), 0.3465, 0.53, 0.44)
-"""From the lower joint upwards; of the foot from the ankle forwards, of the trunk from the hip."""
+    @property
+    def segments(self) -> dict[str, PersonSegment]:
+        """Foot, shank, thigh and trunk in kg and m, masses of both sides."""
+        return segments_of(self.mass, self.height, self.sex, self.own)
 
 
 def leg_chain(subject: Subject) -> Multibody:
     """The chain; with all coordinates at 0 it stands upright with the ankle at the ground's origin."""
     bodies = [Body("fore_aft", 0.0, np.zeros(3), np.zeros((3, 3))), Body("upwards", 0.0, np.zeros(3), np.zeros((3, 3)))]
-    bodies.append(_body("foot", FOOT, subject, X, -0.05))
+    segments = subject.segments
+    bodies.append(_body("foot", segments["foot"], X, -0.05))
     joints = [
         prismatic("foot_x", "ground", "fore_aft", X),
         prismatic("foot_y", "fore_aft", "upwards", Y),
         revolute("foot_turn", "upwards", "foot", Z),
     ]
     parent, at = "foot", RigidTransform.identity()
-    for name, joint, segment in (("shank", "ankle", SHANK), ("thigh", "knee", THIGH), ("trunk", "hip", TRUNK)):
-        bodies.append(_body(name, segment, subject, Y, 0.0))
+    for name, joint in (("shank", "ankle"), ("thigh", "knee"), ("trunk", "hip")):
+        bodies.append(_body(name, segments[name], Y, 0.0))
         joints.append(revolute(joint, parent, name, Z, at))
-        parent, at = name, RigidTransform.from_translation([0.0, segment.length * subject.height, 0.0])
+        parent, at = name, RigidTransform.from_translation([0.0, segments[name].length, 0.0])
     return Multibody("sit to stand", tuple(bodies), tuple(joints), (), GRAVITY)
 
 
-def _body(name: str, segment: _Segment, subject: Subject, along: np.ndarray, height: float) -> Body:
-    mass, length = segment.mass * subject.mass, segment.length * subject.height
-    inertia = mass * (segment.gyration * length) ** 2
-    return Body(name, mass, along * segment.centre * length + Y * height, inertia * np.eye(3))
+def _body(name: str, segment: PersonSegment, along: np.ndarray, height: float) -> Body:
+    inertia = segment.mass * segment.gyration**2
+    return Body(name, segment.mass, along * segment.centre + Y * height, inertia * np.eye(3))
 
 
 SITS = "trunk"

@@ -31,8 +31,6 @@ from geocontact.standing_up.chain import (
     FOOT_PARAMETERS,
     GROUND_LAW,
     JOINTS,
-    SHANK,
-    THIGH,
     Subject,
     chair_on_person,
     ground_on_feet,
@@ -111,7 +109,8 @@ def two_chains(subject: Subject) -> Multibody:
 
 def part_lengths(subject: Subject) -> tuple[float, float, float]:
     """Lengths of the exoskeleton's shank, thigh and module, set to a person [m]."""
-    return SHANK.length * subject.height + SHIFT, THIGH.length * subject.height - SHIFT, HEIGHT
+    segments = subject.segments
+    return segments["shank"].length + SHIFT, segments["thigh"].length - SHIFT, HEIGHT
 
 
 def _heavier(body: Body, more: float) -> Body:

@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.standing_up.chain import SHANK, THIGH, Subject
+from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.trial_forces import SEATED, steady
 
 LOW, HIGH = 0.25, 0.75
@@ -38,6 +38,8 @@ PAUSE = 1.0
 BESIDE = 0.5
 """Time before or after a passage of the hip [s] beyond which seat-off or seat contact is none of it."""
 Kind = Literal["standing up", "sitting down", "squat", "rising", "going down"]
+TASKS = {"rising": "standing up", "going down": "sitting down"}
+"""What a movement is in a study where no chair says it."""
 Times = Float[np.ndarray, " t"]
 
 
@@ -74,7 +76,8 @@ class RecordedMovement:
 def hip_height(subject: Subject, q: Float[np.ndarray, "t n"]) -> Times:
     """Height of the hip over the ankle [m], from coordinates of `chain.COORDINATES`."""
     shank, thigh = q[:, 2] + q[:, 3], q[:, 2] + q[:, 3] + q[:, 4]
-    return np.asarray(subject.height * (SHANK.length * np.cos(shank) + THIGH.length * np.cos(thigh)))
+    segments = subject.segments
+    return np.asarray(segments["shank"].length * np.cos(shank) + segments["thigh"].length * np.cos(thigh))
 
 
 def movements_of(

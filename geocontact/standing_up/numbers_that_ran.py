@@ -22,7 +22,7 @@ from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, Contact
 from geocontact.standing_up.trials import SHIPPED, StandingTrial
 from geocontact.standing_up.worn_device import DeviceMasses, WornDevice
 
-DE_LEVA = "fractions of mass and height for men, both sides: de Leva (1996)"
+DE_LEVA = "both sides; fractions of mass and height by de Leva (1996), or the person's own"
 OF_BOTH = "of both sides"
 IDENTIFIED = ", by sit-to-stand device"
 WEIGHED = "as the study has it"

@@ -154,6 +154,8 @@ class StandingUpTrials:
         Where straps are, if an exoskeleton was worn.
     weights
         Of the cost, besides the noise.
+    one_leg
+        Whether trials are stances of one leg, and their chair the load of the rest of the body.
     """
 
     subject: Subject
@@ -164,6 +166,7 @@ class StandingUpTrials:
     tracks: tuple[str, ...]
     sites: tuple[StrapSite, ...] = (THIGH_STRAP,)
     weights: CostWeights = SHIPPED
+    one_leg: bool = False
 
     @property
     def seated(self) -> bool:

@@ -307,6 +307,7 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "rmsd": by_rows("errors.csv", ["trial", "quantity"], "rmsd"),
     },
     "sit_to_stand.compare": {"rmsd": by_rows("comparison.csv", ["trial", "predictor", "quantity"], "rmsd")},
+    "sit_to_stand.coordinates": {"segments": by_rows("segments.csv", ["segment", "quantity"], "value", 1.0)},
     "sit_to_stand.design": {"chosen": by_rows("chosen.csv", "name", "value")},
     "sit_to_stand.device": {"parameters": by_rows("parameters.csv", "parameter", "value", 1.0)},
     "sit_to_stand.movements": {"starts": by_rows("movements.csv", "movement", "start [s]", 1.0)},

@@ -118,6 +118,8 @@ def test_responses_of_the_leg() -> None:
         "peak moment at the socket [N m]": "socket_moment",
         "energy that the keel returns [J]": "energy",
         "radius [m]": "radius",
+        "peak knee moment [N m]": "knee_moment",
+        "metabolic proxy [J]": "metabolic",
     }
     for title, aim in titles.items():
         cells = row("theory/prosthesis_design.md", title)

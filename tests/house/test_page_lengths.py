@@ -11,12 +11,12 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_250}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_600}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
-controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, and keys and checks of
-made pages."""
+controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the plane,
+and keys and checks of made pages."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -69,7 +69,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1670,
+    "reference/written_files.md": 1680,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -86,7 +86,7 @@ LIMITS = {
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
     "theory/prosthesis_compare.md": 790,
-    "theory/prosthesis_design.md": 1240,
+    "theory/prosthesis_design.md": 1280,
     "theory/prosthesis_gap.md": 850,
     "theory/prosthesis_keel.md": 950,
     "theory/prosthesis_stance.md": 1140,

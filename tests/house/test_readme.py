@@ -27,6 +27,7 @@ NOT_SHOWN = {
     "prosthesis walk": "its page moves as that of `prosthesis simulate`",
     "scale": "its page is that of `prosthesis scale`",
     "shoulder study": "lasts minutes",
+    "sit-to-stand coordinates": "two curves, as of `sit-to-stand movements`",
     "sit-to-stand movements": "two curves with shaded stretches, as of gait events",
 }
 """Commands without a picture, and why."""

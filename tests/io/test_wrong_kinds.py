@@ -175,6 +175,7 @@ thigh = "t02_thigh"
         read_standing_study,
         """mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
 height = { value = 1.75, unit = "m" }
+person = { sex = "female", foot = { gyration = { value = 5, unit = "cm" } } }
 exoskeleton = true
 device = "a.csv"
 free = ["a"]

@@ -20,6 +20,7 @@ from geocontact.standing_up.numbers_that_ran import (
     parameter_numbers,
     size_numbers,
 )
+from geocontact.standing_up.person_segments import SHARES
 from geocontact.standing_up.phases import phase_a
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import STRAP_SITES
@@ -39,7 +40,7 @@ def unusual(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(feet, "GROUND_LAW", law)
     monkeypatch.setattr(exoskeleton, "GROUND_LAW", law)
     monkeypatch.setattr(chain, "GRAVITY", np.array([0.3, -9.5, 0.0]))
-    monkeypatch.setattr(chain, "SHANK", replace(chain.SHANK, gyration=0.3, centre=0.6))
+    monkeypatch.setitem(SHARES["male"], "shank", replace(SHARES["male"]["shank"], gyration=0.3, centre=0.6))
     for module in (exoskeleton, strap_sites):
         monkeypatch.setattr(module, "SHIFT", 0.017)
 

@@ -16,6 +16,7 @@ SHIPPED = (
     "*.mot",
     "*.osim",
     "foot_bench/*",
+    "whole_body/*",
     "mat_*/*",
     "overhead_*/*",
     "gait_P1_*/*",

@@ -2,9 +2,10 @@
 
 from geocontact.analyses.sit_to_stand.calibrate.result import calibrate
 from geocontact.analyses.sit_to_stand.compare.result import compare
+from geocontact.analyses.sit_to_stand.coordinates.result import coordinates
 from geocontact.analyses.sit_to_stand.design.result import design
 from geocontact.analyses.sit_to_stand.device.result import device
 from geocontact.analyses.sit_to_stand.movements.result import movements
 from geocontact.analyses.sit_to_stand.predict.result import predict
 
-__all__ = ["calibrate", "compare", "design", "device", "movements", "predict"]
+__all__ = ["calibrate", "compare", "coordinates", "design", "device", "movements", "predict"]

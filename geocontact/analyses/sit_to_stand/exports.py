@@ -21,8 +21,9 @@ from geocontact.io.opensim.osim_contact import bushing_force_between, smooth_sph
 from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.io.opensim.storage_writer import write_moco_trajectory, write_storage
 from geocontact.io.text.results import CASES, write_table
-from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TRUNK, TURNING, Subject, leg_chain
-from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT, two_chains
+from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TURNING, Subject
+from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT
+from geocontact.standing_up.stance import chain_of
 from geocontact.standing_up.strap import StrapForce, StrapMotion, strap_force, strap_motion
 from geocontact.standing_up.strap_sites import StrapSite, sites_of
 from geocontact.standing_up.trial_result import TrialResult
@@ -69,7 +70,7 @@ def write_solution(file: Path, trial: TrialResult, solved: bool) -> None:
     At these points it solves the equations; at the recording's own times something is left of the balance.
     """
     q, u = trial.points.q, trial.points.u
-    names = (*COORDINATES, *(EXO_JOINTS if q.shape[1] > len(COORDINATES) else ()))
+    names = (*COORDINATES, *EXO_JOINTS)[: q.shape[1]]
 
     def paths(ending: str, values: Float[np.ndarray, "t n"]) -> dict[str, Float[np.ndarray, " t"]]:
         return {f"/jointset/{name}/{name}/{ending}": values[:, k] for k, name in enumerate(names)}
@@ -99,7 +100,7 @@ def write_motion(
     """
     name, q, time = trial.recorded.name, trial.model.q, trial.recorded.time
     write_solution(folder / f"solution_{name}.sto", trial, solved)
-    turning = np.r_[np.array(TURNING), np.ones(q.shape[1] - len(TURNING), bool)]
+    turning = np.r_[np.array(TURNING), np.ones(len(EXO_JOINTS), bool)][: q.shape[1]]
     names = (*COORDINATES, *EXO_JOINTS)[: q.shape[1]]
     title = "Coordinates while standing up"
     degrees = np.where(turning, np.degrees(q), q)
@@ -119,7 +120,12 @@ def _write_loads(folder: Path, trial: TrialResult, straps: Straps) -> None:
     }
     if trial.recorded.chair is not None:
         fore, up, about = trial.recorded.chair.T
-        loads[CHAIR] = (SITS, np.column_stack([fore, up, none[:, 2]]), none, np.column_stack([none[:, :2], about]))
+        loads[CHAIR] = (
+            _loaded(trial),
+            np.column_stack([fore, up, none[:, 2]]),
+            none,
+            np.column_stack([none[:, :2], about]),
+        )
     for site, strap in straps:
         stem = site.names[0].removesuffix(" normal").replace(" ", "_")
         force, moment = site.count * strap.force, site.count * strap.moment
@@ -140,8 +146,10 @@ def _write_lines(folder: Path, subject: Subject, trial: TrialResult, straps: Str
     """Chains, the ground's force on both feet, and that of one strap at each site on the person."""
     time = trial.recorded.time
     kept = np.unique(np.linspace(0, len(time) - 1, LINE_FRAMES).round().astype(int))
-    poses = (two_chains(subject) if straps else leg_chain(subject)).poses(trial.model.q)
-    tops = [(PERSON, "trunk", TRUNK.length * subject.height)]
+    chain, last = chain_of(subject, trial.model.q.shape[1]), _loaded(trial)
+    poses = chain.poses(trial.model.q)
+    person = PERSON[: PERSON.index(last) + 1]
+    tops: list[tuple[tuple[str, ...], str, float]] = [(person, last, subject.segments[last].length)]
     tops += [(EXOSKELETON, "exo_module", HEIGHT)] if straps else []
     points, force = [_centre(trial)], {0: _ground(trial)}
     lines: list[tuple[int, ...]] = [(0,)]
@@ -159,6 +167,11 @@ def _write_lines(folder: Path, subject: Subject, trial: TrialResult, straps: Str
     write_line_series(folder, f"forces_{trial.recorded.name}", series, {"force [N]": on[kept]})
 
 
+def _loaded(trial: TrialResult) -> str:
+    """The body that a given load acts on: the trunk on a chair, the thigh of one leg in stance."""
+    return SITS if trial.model.q.shape[1] >= len(COORDINATES) else "thigh"
+
+
 def _ground(trial: TrialResult) -> Vectors:
     return np.column_stack([trial.model.force, np.zeros(len(trial.recorded.time))])
 
@@ -168,7 +181,13 @@ def _centre(trial: TrialResult) -> Vectors:
 
 
 def write_standing_model(
-    file: Path, subject: Subject, values: Mapping[str, float], *, worn: bool, sites: Sequence[StrapSite] = ()
+    file: Path,
+    subject: Subject,
+    values: Mapping[str, float],
+    *,
+    worn: bool,
+    sites: Sequence[StrapSite] = (),
+    one_leg: bool = False,
 ) -> None:
     """Spheres under the foot, straps as bushings where an exoskeleton is worn, torques of all joints.
 
@@ -178,8 +197,11 @@ def write_standing_model(
         Of the parameters of feet and straps, in SI.
     sites
         Where straps are; those of the values, damped as in the study of the paper, by default.
+    one_leg
+        Whether the chain is that of a stance.
     """
-    chain = two_chains(subject) if worn else leg_chain(subject)
+    count = len(COORDINATES) + (len(EXO_JOINTS) if worn else -1 if one_leg else 0)
+    chain = chain_of(subject, count)
     height, factor = values["radius"] - values["bottom"], values["friction"]
     friction = [float(each) for each in (FRICTION.v_t, FRICTION.mu_s * factor, FRICTION.mu_d * factor, FRICTION.mu_v)]
     balls = [

@@ -13,8 +13,9 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.data.motion import Course
-from geocontact.standing_up.chain import COORDINATES, FOOT, TRUNK, Subject, leg_chain
-from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS, two_chains
+from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS
+from geocontact.standing_up.stance import chain_of
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.curves.declared import Curve, Curves, stroke
@@ -33,6 +34,8 @@ METRES_PER_STRAP_NEWTON = 5e-3
 """A strap's force of 100 N is drawn 0.5 m long."""
 OUTSIDE = np.array([0.0, 0.0, 0.08])
 """Where the exoskeleton is drawn beside the leg [m]."""
+FREE = 3
+"""Coordinates of the foot, before those of the joints."""
 JOINT, LIMB, ARROW = 0.025, 0.03, 0.012
 DIRECTIONS = {
     "right (+z)": (0.0, 0.0, 1.0),
@@ -92,11 +95,13 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
     """Bodies, and the ground's force on both feet at its centre; trials stand side by side."""
     aside = np.array([0.0, 0.0, BESIDE * (number - 0.5 * (count - 1))])
     worn = trial.model.q.shape[1] > len(COORDINATES)
-    poses = (two_chains(subject) if worn else leg_chain(subject)).poses(at_parts(trial, trial.model.q))
-    toe = poses["foot"].apply(np.array([FOOT.length * subject.height, -0.05, 0.0]))
+    poses = chain_of(subject, trial.model.q.shape[1]).poses(at_parts(trial, trial.model.q))
+    segments = subject.segments
+    toe = poses["foot"].apply(np.array([segments["foot"].length, -0.05, 0.0]))
     heel = poses["foot"].apply(np.array([-0.05, -0.05, 0.0]))
-    top = poses["trunk"].apply(np.array([0.0, TRUNK.length * subject.height, 0.0]))
-    joints = [poses[name].translation for name in ("shank", "thigh", "trunk")]
+    names = [name for name in ("shank", "thigh", "trunk") if name in poses]
+    top = poses[names[-1]].apply(np.array([0.0, segments[names[-1]].length, 0.0]))
+    joints = [poses[name].translation for name in names]
     body = np.stack([*joints, top], axis=1)
     foot = np.stack([heel, joints[0], toe], axis=1)
     centre = np.zeros((FRAMES, 3))
@@ -117,9 +122,16 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
         ]
     return [
         *device,
-        Linkage("shank, thigh, trunk", body + aside, _open(4), "bone", JOINT, LIMB),
+        Linkage(", ".join(names), body + aside, _open(len(names) + 1), "bone", JOINT, LIMB),
         Linkage("foot", foot + aside, np.array([(0, 1), (1, 2), (0, 2)]), "bone", 0.0, 0.6 * LIMB),
-        Linkage("force on both feet, 0.6 m for 1 kN", arrow, _open(2), "force", 0.0, ARROW),
+        Linkage(
+            f"force on {'both feet' if 'trunk' in names else 'the foot'}, 0.6 m for 1 kN",
+            arrow,
+            _open(2),
+            "force",
+            0.0,
+            ARROW,
+        ),
         Linkage("floor", edge[None].repeat(FRAMES, axis=0), loop, "floor", 0.0, 0.5 * ARROW),
     ]
 
@@ -140,6 +152,10 @@ def _strap(trial: TrialResult, thigh: RigidTransform, aside: Float[np.ndarray, "
 
 def _open(points: int) -> Int[np.ndarray, "k 2"]:
     return np.array([(i, i + 1) for i in range(points - 1)], np.int64)
+
+
+def _torque(k: int, trial: TrialResult) -> Float[np.ndarray, " t"]:
+    return np.full(len(trial.recorded.time), np.nan) if trial.model.torque is None else trial.model.torque[:, k]
 
 
 def of_trial(k: int, recorded: bool = False) -> int:
@@ -168,9 +184,12 @@ def standing_curves(trials: Sequence[TrialResult]) -> list[Curves]:
             if np.isfinite(recorded).all():
                 curves.append(Curve(f"{name} recorded", factor * recorded, stroke=of_trial(k, recorded=True)))
         panels.append(Curves(title, unit, curves))
+    joints = trials[0].model.q.shape[1] - FREE
+    whose = " of both legs" if joints > 2 else ""
     single: list[tuple[str, str, Of]] = [
-        ("Knee torque of both legs", "N m", lambda t: t.model.torque[:, 1]),
-        ("Hip torque of both legs", "N m", lambda t: t.model.torque[:, 2]),
+        (f"{name} torque{whose}", "N m", partial(_torque, k)) for k, name in ((1, "Knee"), (2, "Hip"))[: joints - 1]
+    ]
+    single += [
         ("Residual of the forces between the points", "N", lambda t: t.residual(t.judged.force)),
         ("Residual of the moments between the points", "N m", lambda t: t.residual(t.judged.moment)),
     ]

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, worn_device
+from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, person_of, worn_device
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -31,6 +31,7 @@ from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, S
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
+from geocontact.standing_up.stance import in_stance, load_of_the_rest, one_leg, smooth
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_sites
 from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, steady, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
@@ -62,17 +63,18 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     """Everything in the study; `c3d_unit` is that of .c3d files that have none, `axes` turns plates into x, y up, z."""
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
-    subject = Subject(study.mass, study.height, worn_device(study, file))
+    subject = replace(person_of(study), device=worn_device(study, file))
+    _confront_masses(subject, file)
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
-    channels = TRACKS_B if study.exoskeleton else TRACKS
+    channels = TRACKS_B if study.exoskeleton else tuple(n for n in TRACKS if n != "rates" or not study.one_leg)
     tracks = _known(file, "tracks", study.tracks, channels, channels)
     if "coordinates" not in tracks:
         raise InputError(file, "tracks", "coordinates are not among them", "add them: the motion must stay near")
     if study.exoskeleton and "strap" not in tracks:
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
-    chain = two_chains(subject) if study.exoskeleton else leg_chain(subject)
+    chain = one_leg(subject) if study.one_leg else two_chains(subject) if study.exoskeleton else leg_chain(subject)
     sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
     damped = study.straps.get("damping", DAMPING), study.straps.get("turning_damping", TURNING_DAMPING)
     sites = tuple(replace(site, damping=damped[0], turning_damping=damped[1]) for site in sites)
@@ -84,7 +86,29 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
         raise InputError("", "`axes`", "has no effect without plates", "leave it out")
     read = [channels_of(each, chain, subject, noise, tracks, file, names, c3d_unit, turn) for each in study.trials]
     weights, worn = CostWeights(**study.weights), study.exoskeleton
-    return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights)
+    return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights, study.one_leg)
+
+
+SUM = 0.01
+"""Share of body mass by which own masses of all segments may differ from it."""
+
+
+def _confront_masses(subject: Subject, study: Path) -> None:
+    """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's."""
+    masses = {name: segment.mass for name, segment in subject.segments.items()}
+    if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
+        legs = sum(masses.values()) - masses["trunk"]
+        what = (
+            f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
+        )
+        raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
+
+
+def refuse_stances(trials: StandingUpTrials, study: Path) -> None:
+    """InputError for stances of walking, whose one leg has no movement of its own to predict."""
+    if trials.one_leg:
+        what = "its trials are stances of one leg, which phase A alone takes"
+        raise InputError(study, "[[trials]] task", what, "run sit-to-stand calibrate")
 
 
 def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
@@ -138,6 +162,8 @@ def channels_of(
     doubt_knee(files.coordinates, chain, q)
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = _plates(files, place, time, c3d_unit, turn)
+    if files.task == "stance" and feet is not None:
+        return _stance(files, subject, whole, feet, study)
     used = _used(files, place, time, hip_height(subject, q), chair)
     if used.sum() < FEWEST:
         what = f"{int(used.sum())} samples are left of it"
@@ -187,6 +213,40 @@ def channels_of(
         )
     )
     return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
+
+
+def _stance(
+    files: StandingTrialFiles, subject: Subject, whole: MovedModel, plate: ForcePlate, study: Path
+) -> StandingTrial:
+    """A stance of walking: low-passed over the whole recording, x from where the ankle stands, and the load of the rest
+    of the body.
+    """
+    time, place = whole.time, f"[[trials]] {files.name}"
+    own = FootPlate(plate, str(files.plates))
+    check_trial(TrialInputs(plates=(own,), mass=subject.mass, mass_option=f"mass in {study}", moved=whole))
+    wrench = _wrench(plate, time)
+    raw = np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
+    try:
+        q, load = smooth(time, whole.values), smooth(time, raw)
+    except ValueError as error:
+        raise InputError(
+            files.coordinates, "", str(error), "resample the coordinates evenly, at 50 Hz or more"
+        ) from error
+    used = _within(files, time) & in_stance(load[:, 1], q[:, 2])
+    if used.sum() < FEWEST or np.diff(np.flatnonzero(used)).max() > 1:
+        what = f"{int(used.sum())} samples of stance are left of it, or those of several stances"
+        raise InputError(study, place, what, "give start and end of one: sit-to-stand coordinates writes them")
+    # the origin lies where the ankle stands
+    stood = float(np.median(q[used, 0]))
+    q, load = q - [stood, 0.0, 0.0, 0.0, 0.0], load - np.outer(stood * load[:, 1], [0.0, 0.0, 1.0])
+    rest = load_of_the_rest(subject, time, q, load)
+    step = float(np.ptp(time)) / (len(time) - 1)
+    u, at = np.gradient(q, step, axis=0), time[used]
+    none = np.zeros((len(at), 1))
+    force3, moment = np.hstack([load[used, :2], none]), np.hstack([none, none, load[used, 2:]])
+    with _named(Path(own.source), plate):
+        force, centre = under_the_feet(Wrench(force3, moment, 0.0 * force3, wrench.frame), at, q[used, 0])
+    return StandingTrial(at - at[0], q[used], u[used], force, centre, files.name, chair=rest[used])
 
 
 def _doubt_unused(files: StandingTrialFiles) -> None:

@@ -63,7 +63,7 @@ class StandingChannel:
 def channels(seen: StandingTrial, model: StandingTrial, noise: StandingNoise) -> list[StandingChannel]:
     """Columns of a trial as recorded and by a model, in the order of tables; NaN for what was not recorded."""
     found = []
-    names = (*COORDINATES, *(EXO_JOINTS if model.q.shape[1] > len(COORDINATES) else ()))
+    names = (*COORDINATES, *EXO_JOINTS)[: model.q.shape[1]]
     for k, name in enumerate(names):
         turns = k > 1
         unit, factor, size = ("deg", DEGREE, noise.angle) if turns else ("mm", MILLIMETRE, noise.length)

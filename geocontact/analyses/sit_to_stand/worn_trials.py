@@ -31,6 +31,11 @@ Table = Float[np.ndarray, "t c"]
 Used = Bool[np.ndarray, " t"]
 
 
+def person_of(study: StandingStudy) -> Subject:
+    """Who is described, without the exoskeleton."""
+    return Subject(study.mass, study.height, sex=study.person.sex, own=study.person.own)
+
+
 def worn_device(study: StandingStudy, file: Path) -> WornDevice:
     """The exoskeleton of a study; InputError where its numbers are of another person's height or leave no inertia."""
     masses = DeviceMasses(**study.masses)
@@ -50,7 +55,7 @@ def worn_device(study: StandingStudy, file: Path) -> WornDevice:
             f"{file.name}: no mass of {', '.join(lacking)}: invented ones are used, which no motion without a person "
             "identifies; weigh the parts, and write [masses]"
         )
-    lengths = part_lengths(Subject(study.mass, study.height))
+    lengths = part_lengths(person_of(study))
     try:
         device = identified_device(found.values, lengths, masses)
     except ValueError as error:

@@ -262,13 +262,6 @@ def keel_poses(
     return socket * RigidTransform.from_components(leg.keel, leg.turn)
 
 
-def hip_centres(
-    seen: MarkerTrajectories, leg: Leg, time: Float[np.ndarray, " t"], cutoff: float | None, gap_limit: float
-) -> Float[np.ndarray, "t 3"]:
-    """Centre of the hip at some times [m], as the markers on the pelvis tell it; InputError where they do not."""
-    return np.asarray(body_poses(seen, leg.markers, "pelvis", time, cutoff, gap_limit).apply(leg.hip))
-
-
 def body_poses(
     seen: MarkerTrajectories,
     markers: Sequence[Marker],

@@ -15,7 +15,7 @@ inertia and dampers: that is the map's own error, on the present foot, and every
 present one the load differs as well, since the pelvis is free: that grows with the logarithm of the keel's stiffness
 over that of the present one. Bands of outcomes have both. What is best is sought with the recorded load, as the
 responses of a person say, and has the first. Both were measured (`benchmarks/prosthesis/forward.py`); of the rate of
-loading and of another alignment they were not.
+loading, knee, hip, metabolic proxy and of another alignment they were not.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.calibration.recorded_stance import hip_centres, stance_from_markers
+from geocontact.below_knee_prosthesis.calibration.recorded_stance import body_poses, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask, foot_task
@@ -92,8 +92,8 @@ class RecordedTrial:
         )
         turn = Rotation.from_euler("z", tilt)
         poses = stance.poses * RigidTransform.from_components(MIDDLE - turn.apply(MIDDLE), turn)
-        hip = hip_centres(self.walking, leg, stance.time, self.cutoff, self.gap_limit)
-        return foot_task(replace(stance, poses=poses), hip, leg, self.keel, self.below)
+        seen = body_poses(self.walking, leg.markers, "pelvis", stance.time, self.cutoff, self.gap_limit)
+        return foot_task(replace(stance, poses=poses), seen, leg, self.keel, self.below)
 
 
 @dataclass(frozen=True)
@@ -132,6 +132,11 @@ def task_again(trial: RecordedTrial, errors: TrialErrors, rng: np.random.Generat
     return moved.task(errors.pitch * rng.standard_normal())
 
 
+OF_MAP: tuple[Aim, ...] = ("ankle_moment", "socket_moment", "energy", "radius", "loading_rate")
+PEAK: Mapping[Aim, Aim] = {"ankle_mean": "ankle_moment", "socket_mean": "socket_moment"}
+"""Outcomes that have an error of the map of their own, and means that have that of their peak."""
+
+
 @dataclass(frozen=True)
 class MapError:
     """Standard deviations of the logarithm of an outcome by the map over that by forward dynamics.
@@ -154,8 +159,9 @@ class MapError:
 
         Each is one error for all values.
         """
-        here, away = (np.array([of.get(aim, 0.0) for aim in AIMS]) for of in (self.here, self.away))
-        one, other = rng.standard_normal((2, len(AIMS)))
+        here, away = (np.array([of.get(PEAK.get(aim, aim), 0.0) for aim in AIMS]) for of in (self.here, self.away))
+        drawn = dict(zip(OF_MAP, rng.standard_normal((2, len(OF_MAP))).T, strict=True))
+        one, other = np.array([drawn.get(PEAK.get(aim, aim), np.zeros(2)) for aim in AIMS]).T
         return np.exp(here * one), np.exp(stiffness[:, None] * away * other)
 
 

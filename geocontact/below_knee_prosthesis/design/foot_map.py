@@ -28,7 +28,7 @@ from jaxtyping import Float
 from scipy.interpolate import RegularGridInterpolator
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain
+from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, thigh_direction
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion, QuasiStaticKeel
 from geocontact.loads.centre_of_pressure import GROUND_POINT, centre_of_pressure
 
@@ -314,9 +314,9 @@ class CarriedLoad:
     stored: Float[np.ndarray, " t"]
     kept: float
 
-    def moment(self, point: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
-        """Moment of the ground's force about a point of the keel's frame in its sagittal plane [N m]; positive: toes
-        up.
+    def moment(self, point: Float[np.ndarray, "*#t k"]) -> Float[np.ndarray, " t"]:
+        """Moment of the ground's force about a point of the keel's frame, or one of each frame, in its sagittal
+        plane [N m]; positive: toes up.
         """
         return _moment(self.task, self.centre, self.task.pitch + self.tilt, point)
 
@@ -324,6 +324,31 @@ class CarriedLoad:
     def ankle_moment(self) -> Float[np.ndarray, " t"]:
         """About the ankle [N m]."""
         return self.moment(self.task.ankle)
+
+    @property
+    def leg_levers(self) -> Float[np.ndarray, "t 2"]:
+        """Moments of the ground's force about hip and knee [N m], to the left."""
+        task, pitch = self.task, self.task.pitch + self.tilt
+        hip = task.knee[:2] + task.leg.length * thigh_direction(task.thigh - pitch)
+        return np.column_stack([self.moment(hip), self.moment(task.knee)])
+
+    @property
+    def leg_torques(self) -> Float[np.ndarray, "t 2"]:
+        """Torques of hip and knee on thigh and shank [N m]: flexion of the hip and extension of the knee positive.
+
+        Weight and inertia of the leg are those of `task.needed`, whatever `tilt` is.
+        """
+        return np.asarray(self.task.needed - self.leg_levers)
+
+    @property
+    def leg_angles(self) -> Float[np.ndarray, "t 2"]:
+        """Turns of thigh against pelvis and of shank against thigh [rad]."""
+        task = self.task
+        return np.column_stack([task.thigh - task.pelvis, task.pitch + self.tilt - task.thigh])
+
+    def with_torques(self, torques: Float[np.ndarray, "t 2"]) -> CarriedLoad:
+        """The same, hip and knee having these [N m]."""
+        return replace(self, task=replace(self.task, needed=torques + self.leg_levers))
 
 
 def carried(foot: FootMap, task: FootTask, tilt: Float[np.ndarray, " t"], kept: float) -> CarriedLoad:
@@ -359,11 +384,11 @@ def with_torque_kept(foot: FootMap, task: FootTask, moment: Float[np.ndarray, " 
 
 
 def _moment(
-    task: FootTask, centre: Float[np.ndarray, "*s 2"], pitch: Float[np.ndarray, "*s"], point: Float[np.ndarray, " 3"]
+    task: FootTask, centre: Float[np.ndarray, "*s 2"], pitch: Float[np.ndarray, "*s"], point: Float[np.ndarray, "*#s k"]
 ) -> Float[np.ndarray, "*s"]:
     """The load acts at the centre, and the recorded force along the floor as well."""
     along, up = (each.reshape(-1, *[1] * (pitch.ndim - 1)) for each in (task.forward, task.load))
-    x, y = centre[..., 0] - point[0], centre[..., 1] - point[1]
+    x, y = centre[..., 0] - point[..., 0], centre[..., 1] - point[..., 1]
     fx = np.cos(pitch) * along + np.sin(pitch) * up
     fy = -np.sin(pitch) * along + np.cos(pitch) * up
     return np.asarray(x * fy - y * fx)

@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
+from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
@@ -201,6 +202,10 @@ class FootTask:
         From the hip to the sole of a straight leg [m].
     weight
         Of the body [N].
+    pelvis
+        Turn of the pelvis in the same plane [rad].
+    needed
+        Moments about hip and knee that weight and inertia of thigh and shank need, to the left [N m].
     """
 
     time: Float[np.ndarray, " t"]
@@ -215,6 +220,8 @@ class FootTask:
     leg: SagittalLeg
     leg_length: float
     weight: float
+    pelvis: Float[np.ndarray, " t"]
+    needed: Float[np.ndarray, "t 2"]
 
     def aligned(self, angle: float) -> FootTask:
         """With the foot turned toes up against the socket by an angle [rad], about the ankle.
@@ -231,13 +238,13 @@ class FootTask:
         )
 
 
-def foot_task(stance: RecordedStance, hip: Float[np.ndarray, "t 3"], leg: Leg, keel: Keel, below: float) -> FootTask:
+def foot_task(stance: RecordedStance, pelvis: RigidTransform, leg: Leg, keel: Keel, below: float) -> FootTask:
     """From a recorded stance; ValueError where it carries nothing.
 
     Parameters
     ----------
-    hip
-        Its centre at the stance's times [m].
+    pelvis
+        Its poses at the stance's times, in the frame of the leg.
     below
         Height of the keel's axis above the sole [m].
     """
@@ -246,24 +253,42 @@ def foot_task(stance: RecordedStance, hip: Float[np.ndarray, "t 3"], leg: Leg, k
         raise ValueError("the stance carries nothing")
     kept = np.arange(loaded[0], loaded[-1] + 1, EVERY)
     kept = kept[stance.force[kept, 1] > LOADED * stance.weight]
-    axis = stance.poses.rotation[kept].apply([1.0, 0.0, 0.0])
+    axis = stance.poses.rotation.apply([1.0, 0.0, 0.0])
     level = axis[:, ::2] / np.linalg.norm(axis[:, ::2], axis=1, keepdims=True)
-    place = leg.turn.inv()
-    up = hip[kept] - stance.poses[kept].apply(place.apply(-leg.keel))
+    place, hip = leg.turn.inv(), pelvis.apply(leg.hip)
+
+    def turn(up: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, " t"]:
+        return np.arctan2(-np.einsum("ti,ti->t", level, up[:, ::2]), up[:, 1])
+
+    along = level[kept].mean(axis=0)
+    pitch = np.arcsin(np.clip(axis[:, 1], -1.0, 1.0))
+    thigh = turn(hip - stance.poses.apply(place.apply(-leg.keel)))
+    q = np.column_stack([hip[:, ::2] @ along / np.linalg.norm(along), hip[:, 1], thigh, pitch])
+    bars = sagittal_leg(leg, keel)
     return FootTask(
         time=stance.time[kept],
-        pitch=np.arcsin(np.clip(axis[:, 1], -1.0, 1.0)),
-        thigh=np.arctan2(-np.einsum("ti,ti->t", level, up[:, ::2]), up[:, 1]),
+        pitch=pitch[kept],
+        thigh=thigh[kept],
         load=stance.force[kept, 1],
-        forward=np.einsum("ti,ti->t", level, stance.force[kept, ::2]),
+        forward=np.einsum("ti,ti->t", level[kept], stance.force[kept, ::2]),
         falling=max(float(-stance.rate[int(loaded[0]), 1, 3]), 0.0),
         ankle=place.apply(leg.ankle - leg.keel),
         bushing=place.apply(leg.bushing - leg.keel),
         knee=place.apply(-leg.keel),
-        leg=sagittal_leg(leg, keel),
+        leg=bars,
         leg_length=leg.thigh + leg.shank + float(leg.ankle[1] - leg.keel[1]) + below,
         weight=stance.weight,
+        pelvis=turn(pelvis.rotation.apply([0.0, 1.0, 0.0]))[kept],
+        needed=needed_of(bars, stance.time, q)[kept],
     )
+
+
+def needed_of(leg: SagittalLeg, time: Float[np.ndarray, " t"], q: Float[np.ndarray, "t 4"]) -> Float[np.ndarray, "t 2"]:
+    """Moments about hip and knee that weight and inertia of a motion need [N m], by `COORDINATES` over time."""
+    course = make_interp_spline(time, q, k=5)
+    u, a = course(time, 1), course(time, 2)
+    along = np.einsum("tij,tj->ti", mass_matrix(leg, q), a) + bias(leg, q, u)
+    return np.column_stack([along[:, 2] + along[:, 3], along[:, 3]])
 
 
 FLAT = HalfSpace()
@@ -288,11 +313,12 @@ class Terrain:
     edge: float | None = None
 
     def met(self, task: FootTask) -> FootTask:
-        """A stance of level ground in the frame of this one: pitch against it, load along its normal."""
+        """A stance of level ground in the frame of this one: turns against it, load along its normal."""
         s, c = np.sin(self.slope), np.cos(self.slope)
         return replace(
             task,
             pitch=task.pitch - self.slope,
+            thigh=task.thigh - self.slope,
             load=c * task.load - s * task.forward,
             forward=c * task.forward + s * task.load,
         )

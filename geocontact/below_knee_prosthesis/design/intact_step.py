@@ -13,6 +13,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
+from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_moments
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RATE, body_poses
 from geocontact.below_knee_prosthesis.design.foot_task import EVERY, LOADED
 from geocontact.below_knee_prosthesis.design.outcomes import LANDING, MEASURES, Aim, radius_of_path
@@ -22,8 +23,9 @@ from geocontact.below_knee_prosthesis.plate_checks import lowest_sphere, require
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 
-OF_INTACT: tuple[Aim, ...] = ("ankle_moment", "radius", "loading_rate")
-"""What an intact foot has of a prosthetic one: it has neither a socket nor a keel."""
+OF_INTACT: tuple[Aim, ...] = ("ankle_moment", "radius", "loading_rate", "ankle_mean")
+NOT_INTACT: tuple[Aim, ...] = ("socket_moment", "energy", "socket_mean")
+"""What a step of an intact foot has of a prosthetic one, and what it has none of: neither socket nor keel."""
 BESIDE = 0.75
 """Lengths of the foot from its middle beyond which the centre of pressure of a step is not its in the median."""
 
@@ -77,7 +79,10 @@ class IntactStep:
         taken and that load: of a foot that comes down evenly, its stiffness times its speed as well.
         """
         radius = radius_of_path(self.time, self.force[:, 1] / self.weight, self.path)
-        return {"ankle_moment": float(self.ankle_moment.max()), "radius": radius, "loading_rate": self.rise}
+        moment = self.ankle_moment
+        (size,) = joint_moments(self.time, ("ankle",), moment[:, None]).values()
+        peak = float(moment.max())
+        return {"ankle_moment": peak, "radius": radius, "loading_rate": self.rise, "ankle_mean": size.mean}
 
 
 def intact_step(

@@ -81,10 +81,13 @@ class MovedLeg:
         Of the coordinates from the recorded ones [m, rad].
     load, forward
         Of the ground, across it and along it [N].
+    tracking
+        Torques of spring and damper at hip and knee [N m].
     """
 
     time: Float[np.ndarray, " t"]
     off: Float[np.ndarray, "t n 4"]
+    tracking: Float[np.ndarray, "t n 2"]
     load: Float[np.ndarray, "t n"]
     forward: Float[np.ndarray, "t n"]
 
@@ -157,10 +160,12 @@ class OtherFeet:
         r, n = self.recorded, len(self.turn)
         count, h = len(r.time) // 2 + 1, r.time[2] - r.time[0]
         state, found = np.zeros((n, 9)), np.zeros((count, n, 4))
-        load, forward = np.zeros((count, n)), np.zeros((count, n))
+        load, forward, tracking = np.zeros((count, n)), np.zeros((count, n)), np.zeros((count, n, 2))
         floor = self._floor()
         for k in range(count):
             found[k] = state[:, :4]
+            along = self._tracking(state[:, :4], state[:, 4:8])
+            tracking[k] = np.column_stack([along[:, 2] + along[:, 3], along[:, 3]])
             first, load[k], forward[k] = self._rate(2 * k, state, floor)
             if k == count - 1:
                 break
@@ -168,7 +173,7 @@ class OtherFeet:
             third = self._rate(2 * k + 1, state + 0.5 * h * second, floor)[0]
             fourth = self._rate(2 * k + 2, state + h * third, floor)[0]
             state = state + h / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
-        return MovedLeg(r.time[::2], found, load, forward)
+        return MovedLeg(r.time[::2], found, tracking, load, forward)
 
     @property
     def mass(self) -> float:

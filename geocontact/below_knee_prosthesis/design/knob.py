@@ -120,12 +120,15 @@ class Knob:
         return OtherFeet(recorded, feet, stacked(legs), turn, self.terrain.slope, start, forward, tracking)
 
     def _moved(self, maps: Sequence[FootMap], task: FootTask, tasks: Sequence[FootTask]) -> tuple[CarriedLoad, ...]:
-        moved = self.other_feet(maps, task).moved()
+        moved, kept = self.other_feet(maps, task).moved(), with_angles_kept(maps[-1], task).leg_torques
         found = []
         for k, (foot, own) in enumerate(zip(maps[:-1], tasks, strict=True)):
-            columns = np.column_stack([moved.off[:, k, 3], moved.load[:, k], moved.forward[:, k]])
-            tilt, load, forward = at_times(own.time, moved.time, columns).T
-            found.append(carried(foot, replace(own, load=load, forward=forward), tilt, 1.0))
+            columns = np.column_stack(
+                [moved.off[:, k, 2:], moved.load[:, k], moved.forward[:, k], moved.tracking[:, k]]
+            )
+            thigh, tilt, load, forward, *tracking = at_times(own.time, moved.time, columns).T
+            one = replace(own, load=load, forward=forward, thigh=own.thigh + thigh)
+            found.append(carried(foot, one, tilt, 1.0).with_torques(kept + np.column_stack(tracking)))
         return tuple(found)
 
     def measured(self, maps: Sequence[FootMap], task: FootTask) -> Float[np.ndarray, "responses n aims"]:

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
+from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_moments, joint_work, metabolic_proxy
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 
 
@@ -50,7 +51,20 @@ def arc_through(points: Float[np.ndarray, "t 2"]) -> Arc:
 
 
 Sense = Literal["least", "most", "nearest"]
-Aim = Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"]
+Aim = Literal[
+    "ankle_moment",
+    "socket_moment",
+    "energy",
+    "radius",
+    "loading_rate",
+    "ankle_mean",
+    "socket_mean",
+    "knee_moment",
+    "knee_mean",
+    "hip_moment",
+    "hip_mean",
+    "metabolic",
+]
 
 
 @dataclass(frozen=True)
@@ -68,7 +82,16 @@ MEASURES: Mapping[Aim, Measure] = {
     "energy": Measure("energy that the keel returns", "J", "most"),
     "radius": Measure("radius of the roll-over shape", "m", "nearest"),
     "loading_rate": Measure("rate of loading at touch-down", "N/s", "least"),
+    "ankle_mean": Measure("mean ankle moment", "N m", "least"),
+    "socket_mean": Measure("mean moment at the socket, in the sagittal plane", "N m", "least"),
+    "knee_moment": Measure("peak knee moment", "N m", "least"),
+    "knee_mean": Measure("mean knee moment", "N m", "least"),
+    "hip_moment": Measure("peak hip moment", "N m", "least"),
+    "hip_mean": Measure("mean hip moment", "N m", "least"),
+    "metabolic": Measure("metabolic proxy, work of hip and knee over the stance", "J", "least"),
 }
+LEG = ("hip_r", "knee_r")
+"""Joints of the leg above the prosthesis."""
 ROLLING = 0.3
 """Radius over the length of the leg: where walking costs least (Adamczyk, Collins & Kuo 2006, J Exp Biol 209)."""
 ROLLS = 0.8
@@ -83,14 +106,27 @@ def outcomes(found: CarriedLoad) -> dict[Aim, float]:
     """By measure, in SI.
 
     Energy returned is what the keel has stored at most, less what is left at the end and what its dampers take on the
-    way. The rate of loading is the foot's stiffness as it lands times the speed at which it comes down.
+    way. The rate of loading is the foot's stiffness as it lands times the speed at which it comes down. Means are those
+    of a moment's size over the loaded stance. The metabolic proxy is that of the work of hip and knee (`joint_work`);
+    what the other leg does is not in it.
     """
+    time, socket, torques = found.task.time, found.moment(found.task.bushing), found.leg_torques
+    rates = np.gradient(found.leg_angles, time, axis=0)
+    moments = np.column_stack([found.ankle_moment, socket, torques])
+    ankle, limb, hip, knee = joint_moments(time, ("ankle", "limb", *LEG), moments).values()
     return {
         "ankle_moment": float(found.ankle_moment.max()),
         "socket_moment": float(np.abs(found.moment(found.task.bushing)).max()),
         "energy": returned(found),
         "radius": roll_over_radius(found),
         "loading_rate": loading_rate(found),
+        "ankle_mean": ankle.mean,
+        "socket_mean": limb.mean,
+        "knee_moment": knee.peak,
+        "knee_mean": knee.mean,
+        "hip_moment": hip.peak,
+        "hip_mean": hip.mean,
+        "metabolic": metabolic_proxy(joint_work(time, LEG, rates, torques)),
     }
 
 

@@ -33,7 +33,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geocontact.data.plausible import KG, N_M, N, Plausible
+from geocontact.data.body_segments import Sex
+from geocontact.data.plausible import KG, N_M, TALL, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, m, mm
 from geocontact.io.documents import (
@@ -51,7 +52,7 @@ from geocontact.io.documents import (
 )
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
-TALL = Plausible("the height of a person", m, (0.8, 2.5))
+LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {
     "length": Plausible("the standard deviation of a place", mm, (1e-4, 1000.0), (0.01, 20.0)),
@@ -82,7 +83,7 @@ Damped = {
     name: Annotated[float, WithUnit(unit, bare=True), Field(ge=0.0)]
     for name, unit in {"damping": "N s/m", "turning_damping": "N m s/rad"}.items()
 }
-Task = Literal["standing up", "sitting down", "squat"]
+Task = Literal["standing up", "sitting down", "squat", "stance"]
 Mode = Literal["active", "passive", "off"]
 
 
@@ -104,7 +105,7 @@ class StandingTrialFiles(Document):
     mode
         Active: it helps. Passive, its motors giving nothing, or off: its hinges have friction alone.
     task
-        Sitting down ends at seat contact, a squat has no chair.
+        Sitting down ends at seat contact, a squat has no chair, a stance is that of one leg in walking.
     movement
         Which of the recording's movements of this task is used, from 1.
     strap
@@ -148,13 +149,43 @@ class StandingTrialFiles(Document):
     def _require_chair(self) -> StandingTrialFiles:
         if self.sitting and (self.chair is None or self.plates is None):
             raise refusal("sitting needs the force of a chair", "name plates, with a chair among them")
-        if self.task == "squat" and self.chair is not None:
-            raise refusal("a squat has no chair", "leave chair out, or name another task")
+        if self.task in ("squat", "stance") and self.chair is not None:
+            raise refusal(f"a {self.task} has no chair", "leave chair out, or name another task")
+        if self.task == "stance" and (self.plates is None or self.movement is not None or self.rates is not None):
+            raise refusal("a stance needs plates, and neither movement nor rates", "name its plates, start and end")
         if self.mode == "off" and self.motors is not None:
             raise refusal("motors that are off give no torque", 'leave motors out, or write mode = "passive"')
         if self.movement is not None and (self.start is not None or self.end is not None):
             raise refusal("movement and start or end choose the time twice", "keep one of them")
         return self
+
+
+OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Annotated[float, WithUnit(LONG), Field(gt=0.0)])}
+
+
+class StandingPerson(Document):
+    """Whose segments the person has.
+
+    Parameters
+    ----------
+    sex
+        Row of de Leva's table.
+    foot, shank, thigh, trunk
+        Own values in place of the table's: mass, of one leg; length; mass centre from the lower joint, of the foot from
+        the ankle forwards; radius of gyration about the mass centre. The trunk has head and arms, from the hips.
+    """
+
+    sex: Sex = "male"
+    foot: Annotated[Mapping[str, float], Some(OWN)] = {}
+    shank: Annotated[Mapping[str, float], Some(OWN)] = {}
+    thigh: Annotated[Mapping[str, float], Some(OWN)] = {}
+    trunk: Annotated[Mapping[str, float], Some(OWN)] = {}
+
+    @property
+    def own(self) -> dict[str, Mapping[str, float]]:
+        """Own values by segment."""
+        given = {"foot": self.foot, "shank": self.shank, "thigh": self.thigh, "trunk": self.trunk}
+        return {name: values for name, values in given.items() if values}
 
 
 class StandingStudy(Document):
@@ -166,6 +197,8 @@ class StandingStudy(Document):
         Body mass.
     height
         Body height.
+    person
+        Sex and own values of segments; the men's table by default.
     exoskeleton
         Whether it was worn.
     device
@@ -189,6 +222,7 @@ class StandingStudy(Document):
 
     mass: Annotated[float, WithUnit(BODY)]
     height: Annotated[float, WithUnit(TALL)]
+    person: StandingPerson = StandingPerson()
     exoskeleton: bool = False
     device: File | None = None
     masses: Annotated[Mapping[str, float], Some(Masses)] = {}
@@ -199,11 +233,21 @@ class StandingStudy(Document):
     tracks: Names | None = None
     trials: Annotated[tuple[StandingTrialFiles, ...], Listed("T{number}", same_place)]
 
+    @property
+    def one_leg(self) -> bool:
+        """Whether its trials are stances of walking."""
+        return self.trials[0].task == "stance"
+
     @model_validator(mode="after")
     def _require_worn(self) -> StandingStudy:
         worn = {"device": self.device, "[masses]": self.masses, "[straps]": self.straps}
         worn |= {f"{key} of {each.name}": getattr(each, key) for each in self.trials for key in ("mode", "motors")}
         odd = next((name for name, value in worn.items() if value), None)
+        walked = [each.task == "stance" for each in self.trials]
+        if any(walked) and (self.exoskeleton or not all(walked)):
+            raise refusal(
+                "a stance is of one leg, the other trials of both", "calibrate stances in a study of their own"
+            )
         if odd is not None and not self.exoskeleton:
             raise refusal(f"{odd} has no effect without an exoskeleton", "write exoskeleton = true, or leave it out")
         return self

@@ -58,7 +58,14 @@ def test_outcomes_are_those_that_were_made(tmp_path: Path) -> None:
         "energy": True,
         "radius": False,
         "loading_rate": False,
+        "ankle_mean": False,
+        "socket_mean": True,
+        **dict.fromkeys(("knee_moment", "knee_mean", "hip_moment", "hip_mean", "metabolic"), True),
     }
+    own = np.abs(step.ankle_moment)
+    mean = (0.5 * (own[1:] + own[:-1]) @ np.diff(step.time)) / np.ptp(step.time)
+    assert values["ankle_mean"] == pytest.approx(mean, rel=1e-12)
+    assert "not computed of the intact leg" in table.loc["hip_mean", "words"]
 
 
 CASES: dict[str, tuple[Callable[[Path], IntactStep | None], str]] = {

@@ -126,6 +126,7 @@ def test_a_known_walk_by_angles_and_by_torques(tmp_path: Path) -> None:
         "walk.csv",
         "moments.csv",
         "work.csv",
+        "angles.csv",
         "errors.csv",
         "played_back.csv",
         "coordinates.sto",

@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart
+from geocontact.data.multibody.joint_angles import JointAngleForm
 from geocontact.data.plausible import GAP
 
 
@@ -41,6 +42,9 @@ class IkOptions(Options):
     knee
         Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
         x forward, y up and z to the right in both. May be given again.
+    joint_angles
+        Write the angles of joints that turn about several axes in this form as well: ISB (ZXY: flexion, adduction,
+        rotation), another sequence of the turned axes of the joint's frames such as XYZ, or quaternion.
     events
         Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
         be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.
@@ -61,7 +65,8 @@ class IkOptions(Options):
     writes: ClassVar[str] = """
     Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model),
     MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), knees.csv with
-    `knee`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton) and run.json into OUT.
+    `knee`, angles.csv with `joint_angles`, cycles.csv where heel strikes are known, ik.json, report.html (a moving
+    skeleton) and run.json into OUT.
     """
 
     markers: Path
@@ -75,6 +80,7 @@ class IkOptions(Options):
     hold: Texts = ()
     fill: Annotated[float, GAP] = 0.1
     knee: Texts = ()
+    joint_angles: JointAngleForm | None = None
     events: Texts = ()
     part: CyclePart | None = None
     analog: bool = False

@@ -32,6 +32,7 @@ from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
 from geocontact.analyses.motion.inverse_kinematics.show import kinematics_curves, kinematics_page
+from geocontact.analyses.motion.joint_angles import joint_angles_table, warn_of_gimbal_lock
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
 from geocontact.analyses.motion.panels import printed
@@ -115,7 +116,7 @@ class IkResult(Result):
         return squares_of(self.poses)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`coordinates` [deg, m], `markers` with the distance of each; `knees` and `cycles` where there are some."""
+        """`coordinates` [deg, m], distances of `markers`; `knees`, `angles` and `cycles` where there are some."""
         p = self.poses
         units = ["deg" if c.kind == "rotational" else "m" for c in self.seen.model.coordinates]
         values = printed(self.seen.model.coordinates, p.values).T
@@ -123,6 +124,8 @@ class IkResult(Result):
         found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles}), "markers": self._distances()}
         if self.seen.knees:
             found["knees"] = knee_table(self.seen.model, p, self.seen.knees)
+        if (form := self.options.joint_angles) is not None:
+            found["angles"] = joint_angles_table(self.seen.model, p.time, np.asarray(p.values), form)
         return {**found, "cycles": cycles_table(self.cycles)} if self.cycles else found
 
     def figure(self) -> Figure:
@@ -201,6 +204,8 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     if exchanged is None and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)
+    if o.joint_angles is not None:
+        warn_of_gimbal_lock(seen.model, found.time, np.asarray(found.values), o.joint_angles)
     for end in of_ends(found, seen.model):
         reserve(f"{end.what}: the markers ask for an angle beyond it")
     judge(goodness_of_poses(found, seen.model, MOVING), warned=True)

@@ -19,6 +19,7 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
+from geocontact.below_knee_prosthesis.design.outcomes import Aim
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, TILT
 
@@ -79,8 +80,9 @@ class ProsthesisDesignOptions(Options):
     vary
         What is changed: fulcrum, alignment (turn of the foot on the socket) or stiffness (of the keel).
     aim
-        Peak ankle moment, peak moment at the socket or rate of loading: the least; energy that the keel returns: the
-        most; radius of the roll-over shape: 0.3 of the leg's length.
+        Peak or mean moment at ankle, socket, knee or hip, metabolic proxy (work of hip and knee over the efficiencies
+        of muscle) or rate of loading: the least; energy that the keel returns: the most; radius of the roll-over
+        shape: 0.3 of the leg's length.
     target
         Desired value of the aim instead [N m, J, m or N/s].
     intact
@@ -148,7 +150,7 @@ class ProsthesisDesignOptions(Options):
     slope: Annotated[Degrees, SLOPE] = 0.0
     edge: Annotated[PartLength | None, EDGE] = None
     vary: Literal["fulcrum", "alignment", "stiffness"] = "fulcrum"
-    aim: Literal["ankle_moment", "socket_moment", "energy", "radius", "loading_rate"] = "radius"
+    aim: Aim = "radius"
     target: float | None = None
     intact: Path | None = None
     intact_plates: Path | None = None

@@ -244,7 +244,7 @@ def _summarise(r: ProsthesisDesignResult) -> None:
         note("intact", plain(dict(r.intact)))
     if r.together is not None:
         say(pair_words(knob.vary, chosen, r.together))
-    for response, line in difference_words(r.sweep).items():
+    for response, line in difference_words(r.sweep, chosen.aim).items():
         say(f"{response}, {shown(knob.settings[-1])} in place of {shown(knob.settings[0])}: {line}")
     _note(r)
 

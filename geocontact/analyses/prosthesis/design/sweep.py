@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.design.drawn import OF_MAP
+from geocontact.below_knee_prosthesis.design.intact_step import NOT_INTACT
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, RESPONSES, Vary
 from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit
@@ -69,12 +71,14 @@ def ranges_table(sweep: Sweep) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def difference_words(sweep: Sweep) -> dict[str, str]:
-    """The last value in place of the first, draw by draw, by response."""
+def difference_words(sweep: Sweep, asked: Aim) -> dict[str, str]:
+    """The last value in place of the first, draw by draw, by response: of the foot's own outcomes and what is asked."""
     found: dict[str, str] = {}
     for j, response in enumerate(RESPONSES):
         words = []
         for k, aim in enumerate(AIMS):
+            if aim not in (*OF_MAP, asked):
+                continue
             off = sweep.difference(j, k)
             name, unit = MEASURES[aim].words.partition(",")[0], MEASURES[aim].unit
             if off.small:
@@ -190,22 +194,25 @@ OF_ONE_STEP = (
 )
 
 
+NOT_THERE = (": not computed of the intact leg", ": an intact foot has none")
+
+
 def intact_words(values: Mapping[Aim, float]) -> str:
     """Outcomes that the intact foot has, and those that it does not have, in a sentence."""
     has = "; ".join(f"{MEASURES[aim].words} {value:.3g} {MEASURES[aim].unit}" for aim, value in values.items())
-    lacks = " and no ".join(MEASURES[aim].words.partition(",")[0] for aim in AIMS if aim not in values)
+    lacks = " and no ".join(MEASURES[aim].words.partition(",")[0] for aim in NOT_INTACT)
     return f"aimed at, of one step of the intact foot: {has}; without socket and keel there is no {lacks}"
 
 
 def intact_table(values: Mapping[Aim, float]) -> pd.DataFrame:
-    """One row for each outcome; those that an intact foot does not have are empty."""
+    """One row for each outcome; those that a step of an intact foot does not have are empty."""
     rows = [
         {
             "outcome": aim,
             "intact side": values.get(aim, np.nan),
             "unit": MEASURES[aim].unit,
             "aimed at": aim in values,
-            "words": MEASURES[aim].words if aim in values else f"{MEASURES[aim].words}: an intact foot has none",
+            "words": f"{MEASURES[aim].words}{'' if aim in values else NOT_THERE[aim in NOT_INTACT]}",
         }
         for aim in AIMS
     ]

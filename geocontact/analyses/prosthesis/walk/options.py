@@ -17,6 +17,7 @@ from geocontact.analyses.prosthesis.ranges import (
     require_one_residual,
 )
 from geocontact.data.errors import InputError
+from geocontact.data.multibody.joint_angles import JointAngleForm
 from geocontact.data.plausible import CUTOFF, GAP
 
 
@@ -82,6 +83,9 @@ class ProsthesisWalkOptions(Options):
         Zero-lag low-pass of the coordinates [Hz]; 0 leaves them as they are.
     gap_limit
         Longest time for which a coordinate may be unknown [s].
+    joint_angles
+        Form of the angles in angles.csv, of joints that turn about several axes: ISB (ZXY: flexion, adduction,
+        rotation), another sequence of the turned axes of the joint's frames such as XYZ, or quaternion.
     machine_code
         Compile the equations first: the first run takes half a minute longer, later runs are faster.
     markers_map
@@ -98,8 +102,8 @@ class ProsthesisWalkOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes walk.csv (forces, centres of pressure, joint moments, residuals on the pelvis), moments.csv (peak and mean of
-    each joint), work.csv (of each joint), coordinates.sto, errors.csv (beside the plates), played_back.csv with
-    torques, a figure, report.html and run.json into OUT.
+    each joint), work.csv (of each joint), angles.csv, coordinates.sto, errors.csv (beside the plates), played_back.csv
+    with torques, a figure, report.html and run.json into OUT.
     """
 
     markers: Path
@@ -124,6 +128,7 @@ class ProsthesisWalkOptions(Options):
     law: Path | None = None
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
+    joint_angles: JointAngleForm = "ISB"
     machine_code: bool = False
     markers_map: str | None = None
     axes: Expression | None = None

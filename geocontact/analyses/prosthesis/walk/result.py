@@ -24,11 +24,13 @@ from geocontact.analyses.frame.collector import judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.joint_angles import joint_angles_table, warn_of_gimbal_lock
 from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.prosthesis.quantity_words import ASKED, NAMES
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
 from geocontact.analyses.prosthesis.walk.show import walk_curves, walk_page
 from geocontact.analyses.prosthesis.walk.steps import MovedLegs, RecordedPerson, moved_legs, read
+from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.joint_work import (
     JointMoment,
@@ -43,6 +45,7 @@ from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.own_side import LENGTHS, TURNED
+from geocontact.data.multibody.model import Multibody
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2
 from geocontact.identify.signals.agreement import Agreement
 from geocontact.io.opensim.storage_writer import write_storage
@@ -64,6 +67,13 @@ def names_of_side(names: tuple[str, ...], side: Side) -> tuple[str, ...]:
 def coordinates_of_side(walk: WholeMotion, side: Side) -> Float[np.ndarray, "t n"]:
     """Coordinates over time as those of the person's own side [rad, m]."""
     return np.where(np.isin(walk.names, TURNED), -walk.q, walk.q) if side == "left" else walk.q
+
+
+def model_of_side(amputee: Amputee, walk: WholeMotion, side: Side) -> tuple[Multibody, Float[np.ndarray, "t n"]]:
+    """The person with the prosthesis on their own side, and the coordinates over time in the model's order."""
+    model = without_locked(amputee_tree(amputee, side))
+    names = names_of_side(walk.names, side)
+    return model, coordinates_of_side(walk, side)[:, [names.index(c.name) for c in model.coordinates]]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -109,7 +119,7 @@ class ProsthesisWalkResult(Result):
         return {name: column for name, column in table.items() if not name.startswith(("pelvis", "socket", "keel"))}
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`walk` over time, `moments`, `work` by joint, `errors` beside the plates, `played_back` by torques."""
+        """`walk` over time, `moments`, `work`, `angles` of joints, `errors` beside the plates, `played_back`."""
         walk, side = self.moved.walk, self.options.side
         columns: dict[str, object] = {"time [s]": walk.time}
         for foot, wrench in (("prosthesis", walk.own), ("intact", walk.intact)):
@@ -127,6 +137,8 @@ class ProsthesisWalkResult(Result):
         ]
         found = {"walk": pd.DataFrame(columns), "moments": moments_table(self.peaks)}
         found |= {"work": work_table(self.work), "errors": pd.DataFrame(rows)}
+        model, values = model_of_side(self.person.amputee, walk, side)
+        found["angles"] = joint_angles_table(model, walk.time, values, self.options.joint_angles)
         if self.moved.beside is not None:
             found["played_back"] = played_table(self.moved.beside)
         return found
@@ -140,10 +152,7 @@ class ProsthesisWalkResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The moving skeleton, curves, tables."""
         side, walk = self.options.side, self.moved.walk
-        model = without_locked(amputee_tree(self.person.amputee, side))
-        names = names_of_side(walk.names, side)
-        order = [names.index(c.name) for c in model.coordinates]
-        values = coordinates_of_side(walk, side)[:, order]
+        model, values = model_of_side(self.person.amputee, walk, side)
         title = f"Walk of {self.options.markers.name}"
         return {REPORT: walk_page(title, model, values, self.curves()["walk"], self.tables(), self.sentences)}
 
@@ -227,6 +236,8 @@ def run(person: RecordedPerson, o: ProsthesisWalkOptions) -> ProsthesisWalkResul
     peaks = joint_moments(walk.time, names, moved.forces)
     work = joint_work(walk.time, names, walk.u, moved.forces)
     judge(goodness_of(errors, markers))
+    model, values = model_of_side(person.amputee, walk, o.side)
+    warn_of_gimbal_lock(model, walk.time, values, o.joint_angles)
     _summarise(errors, peaks, work, moved, mass)
     note("markers", plain({"rms_m": markers.rms, "largest_m": markers.largest}))
     return ProsthesisWalkResult(options=o, person=person, moved=moved, errors=errors, peaks=peaks, work=work)

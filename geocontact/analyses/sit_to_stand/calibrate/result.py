@@ -165,7 +165,8 @@ class StandingCalibrateResult(Result):
         subject, sites = self.given.subject, self.given.sites
         for trial in self.trials:
             write_motion(folder, subject, trial, values, self.found.solved, sites)
-        write_standing_model(folder / "model.osim", subject, values, worn=self.given.exoskeleton, sites=sites)
+        kind = {"worn": self.given.exoskeleton, "one_leg": self.given.one_leg}
+        write_standing_model(folder / "model.osim", subject, values, sites=sites, **kind)
         if self.phases[-1].name == "B":
             write_strap_case(folder / "gap", subject, self.given.trials, values, damping=sites[0].damping)
         super().write_files(folder)
@@ -204,9 +205,14 @@ def _report(r: StandingCalibrateResult) -> None:
     angle = errors[errors["unit"] == "deg"]["rmsd"].max()
     worn = errors[straps].groupby("quantity", sort=False)["rmsd"].max()
     also = "".join(f", {name} within {off:.1f} N" for name, off in worn.items())
+    on_plates = [
+        f"{what} within {worst[name]:.1f} {unit}, "
+        for name, what, unit in (("force", "ground reaction", "N"), ("centre", "centre of pressure", "mm"))
+        if name in r.given.tracks
+    ]
     say(
-        f"{counted(len(r.trials), 'trial')}: ground reaction within {worst['force']:.1f} N, centre of pressure within "
-        f"{worst['centre']:.1f} mm, angles within {angle:.2f}°{also} (largest RMSD of a trial)"
+        f"{counted(len(r.trials), 'trial')}: {''.join(on_plates)}angles within {angle:.2f}°{also} "
+        "(largest RMSD of a trial)"
     )
     if r.found.solved and fit.outcome != "contradicts":
         seen = [each for phase in r.phases for each in phase.motions]

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
-from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.standing_trials import refuse_stances, standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters
@@ -51,6 +51,7 @@ class TrialsToHelp:
 def read(o: StandingDesignOptions) -> TrialsToHelp:
     """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
     trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    refuse_stances(trials, o.study)
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"
         raise InputError(o.study, "", what, remedy)

@@ -8,10 +8,7 @@ from typing import Annotated, ClassVar
 
 from geocontact.analyses.frame.marks import C3dUnit, Requires
 from geocontact.analyses.frame.options import Options
-from geocontact.data.plausible import Plausible
-from geocontact.data.units import m
-
-TALL = Plausible("the height of a person", m, (0.8, 2.5))
+from geocontact.data.plausible import TALL
 
 
 @dataclass(frozen=True)

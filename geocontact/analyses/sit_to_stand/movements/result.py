@@ -35,6 +35,7 @@ from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.movements import (
     LEAST_RANGE,
     PAUSE,
+    TASKS,
     RecordedMovement,
     contacts_beside,
     contradiction,
@@ -50,8 +51,6 @@ if TYPE_CHECKING:
     from geocontact.view.page.content import Page
 
 TRIALS = "trials.toml"
-TASKS = {"rising": "standing up", "going down": "sitting down"}
-"""What a movement is in a study where no chair says it."""
 SHOWN = 3
 """Contacts beside all movements that are named."""
 MEANT = [

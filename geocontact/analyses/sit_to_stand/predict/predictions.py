@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
-from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.standing_trials import refuse_stances, standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows, mesh_table, not_certified
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl_c
@@ -79,6 +79,7 @@ class HeldOutTrials:
 def read(o: StandingPredictOptions) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
     trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    refuse_stances(trials, o.study)
     known = standing_trials(o.against, "`against`", o.c3d_unit, o.axes)
     for file, study in ((o.study, trials), (o.against, known)):
         if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):

@@ -1,0 +1,132 @@
+"""Files of a whole body's motion: its legs in the plane, and plates that are added up and turned into it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from scipy.spatial.transform import Rotation
+
+from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
+from geocontact.analyses.motion.markers import turn_of
+from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
+from geocontact.analyses.sit_to_stand.standing_trials import FEWEST, require_one_clock
+from geocontact.data.errors import InputError
+from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.model import Multibody
+from geocontact.identify.signals.filters import UNEVEN
+from geocontact.io.mocap.force_plates import plate_named, read_force_plates
+from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.osim_multibody import read_multibody
+from geocontact.io.text.tables import listed, read_table
+from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, planar_motion
+from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
+
+SIDES = ("right", "left")
+Columns = Float[np.ndarray, "t 6"]
+Times = Float[np.ndarray, " t"]
+
+
+@dataclass(frozen=True, eq=False)
+class PlanarRecording:
+    """A motion in the plane, and the loads of feet and chair in it.
+
+    Parameters
+    ----------
+    mass
+        Of the model [kg].
+    clock, feet, chair
+        Times of the plates [s]; force and moment about the origin [N, N m], x forwards, y up, z right. None where they
+        were not recorded.
+    """
+
+    time: Float[np.ndarray, " t"]
+    moved: PlanarMotion
+    mass: float
+    clock: Float[np.ndarray, " s"] | None = None
+    feet: Columns | None = None
+    chair: Columns | None = None
+
+
+def read(o: StandingCoordinatesOptions) -> PlanarRecording:
+    """Everything the options name."""
+    model = read_multibody(o.model)
+    add_input("`model`", o.model, bodies=len(model.bodies))
+    if model.up[1] < 1.0 - 1e-6:
+        raise InputError(o.model, "gravity", "is not along -y", "the plane is upright along y: turn the model")
+    time, values = _motion(model, o)
+    try:
+        moved = planar_motion(model, values, _legs(model, o), SIDES if o.leg == "both" else (o.leg,))
+    except ValueError as error:
+        raise InputError(o.model, "", str(error), "are `joints` those of hip, knee and ankle?") from error
+    moved = replace(moved, q=moved.q + np.outer(o.belt * time, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    whole = MovedModel(model, time, values, str(o.motion))
+    if o.plates is None or o.feet is None:
+        check_trial(TrialInputs(moved=whole))
+        return PlanarRecording(time, moved, model.mass)
+    turn = turn_of(o.axes)
+    under, seat = _plates(o.plates, o.feet, time, turn, o)
+    check_trial(TrialInputs(plates=tuple(FootPlate(each, str(o.plates)) for each in under), turn=turn, moved=whole))
+    clock = under[0].time
+    feet = _load(under, clock, moved, o.belt)
+    return PlanarRecording(time, moved, model.mass, clock, feet, _load(seat, clock, moved, o.belt) if seat else None)
+
+
+def _motion(model: Multibody, o: StandingCoordinatesOptions) -> tuple[Times, Float[np.ndarray, "t n"]]:
+    """Times and coordinates of the model; InputError for few or uneven frames, and for gaps."""
+    table = read_table(o.motion)
+    add_input("motion", o.motion, frames=len(table.time))
+    time, values = table.time, motion_of(table, model)
+    if o.time is not None:
+        kept = (time >= o.time[0]) & (time <= o.time[1])
+        time, values = time[kept], values[kept]
+    if len(time) < FEWEST:
+        raise InputError(o.motion, "", f"{len(time)} frames are too few", f"{FEWEST} are needed")
+    step = float(np.ptp(time)) / (len(time) - 1)
+    if np.abs(np.diff(time) - step).max() > UNEVEN * step or not np.isfinite(values).all():
+        raise InputError(o.motion, "", f"frames are not {step:g} s apart everywhere, or empty", "fill the gaps")
+    return time, values
+
+
+def _plates(
+    file: Path, feet: str, time: Times, turn: Rotation | None, o: StandingCoordinatesOptions
+) -> tuple[list[ForcePlate], list[ForcePlate]]:
+    """Plates under the feet, and that of the chair, on the clock of the motion."""
+    plates = turned_plates(read_force_plates(file, o.c3d_unit), turn, file)
+    add_input("`plates`", file, plates=len(plates))
+    names = [name.strip() for name in feet.split(",")]
+    if o.leg != "both" and len(names) > 1:
+        raise InputError("", "`feet`", f"{len(names)} plates are named for one leg", "name that of its foot")
+    if len(set(names)) < len(names):
+        raise InputError("", "`feet`", f"{feet} names a plate twice", "name each plate once")
+    under = [plate_named(plates, name, file, "`feet`") for name in names]
+    seat = [] if o.chair is None else [plate_named(plates, o.chair, file, "`chair`")]
+    for plate in (*under, *seat):
+        require_one_clock(file, plate, time)
+    return under, seat
+
+
+def _load(plates: Sequence[ForcePlate], clock: Times, moved: PlanarMotion, belt: float) -> Columns:
+    """Sum over plates in the plane, about its origin, which goes with the belt; none where there is nothing."""
+    about = [plate.at(clock) for plate in plates]
+    force = moved.turn.apply(np.sum([np.nan_to_num(each.force) for each in about], axis=0))
+    moment = moved.turn.apply(np.sum([np.nan_to_num(each.moment) for each in about], axis=0))
+    return np.hstack([force, moment + np.cross(np.outer(belt * clock, [1.0, 0.0, 0.0]), force)])
+
+
+def _legs(model: Multibody, o: StandingCoordinatesOptions) -> dict[str, BodyLeg]:
+    """Joints of both legs by the names of their coordinates."""
+    stems = [name.strip() for name in o.joints.split(",")]
+    if len(stems) != len(LEG_JOINTS):
+        raise InputError("", "`joints`", f"{o.joints!r} is not three names", "write hip_flexion,knee_angle,ankle_angle")
+    of = {c.name: joint for joint in model.joints for c in joint.coordinates}
+    for side in SIDES:
+        for stem in stems:
+            if f"{stem}_{side[0]}" not in of:
+                what = f"no coordinate {stem}_{side[0]}; there are {listed(tuple(of))}"
+                raise InputError(o.model, "", what, "name those of hip, knee and ankle as `joints`")
+    return {side: BodyLeg(*(of[f"{stem}_{side[0]}"] for stem in stems)) for side in SIDES}

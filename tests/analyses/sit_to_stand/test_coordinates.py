@@ -1,0 +1,137 @@
+"""Planar coordinates by the command: a shipped trial made a whole body in space, and found again from its files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.frame.record import Record
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.io.text.tables import read_table
+from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.stance import chain_of
+from meshes.whole_body import HEADING, SAMPLE, main, values_of, whole_body, write_body, write_plates
+from tests.cli.calls import MESHES
+from tests.recording import opened
+
+SUBJECT = Subject()
+PLATES = {"feet": "right_force,left_force", "chair": "chair_force"}
+pytestmark = pytest.mark.filterwarnings("ignore::geocontact.InputWarning")
+
+
+def in_space(folder: Path) -> dict[str, Any]:
+    """The first shipped trial as a model, its motion, and plates: both feet's share the load unevenly."""
+    main(folder)
+    return {"model": folder / "body.osim", "plates": folder / "plates.mot", "height": SUBJECT.height, **PLATES}
+
+
+def test_shipped_files_are_those_that_are_made(tmp_path: Path) -> None:
+    main(tmp_path)
+    for file in (MESHES / "whole_body").iterdir():
+        assert file.read_bytes() == (tmp_path / file.name).read_bytes(), file
+
+
+def test_a_shipped_trial_is_found_again_from_a_whole_body(tmp_path: Path) -> None:
+    """Coordinates, forces and centre as the shipped study gives them, in one folder that calibrate reads."""
+    result = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **in_space(tmp_path))
+    folder = result.write(tmp_path / "out")
+    opened(Record("sit-to-stand calibrate", {}))
+    shipped, made = (standing_trials(each / "study.toml", "study") for each in (SAMPLE, folder))
+    one, other = shipped.trials[0], made.trials[0]
+    moving = slice(0, len(other.time))  # from seat-off on, until the hips are still
+    assert 100 < len(other.time) <= len(one.time)
+    np.testing.assert_allclose(other.q, one.q[moving], atol=1e-7)
+    np.testing.assert_allclose(other.force, one.force[moving], atol=1e-4)
+    np.testing.assert_allclose(other.centre, one.centre[moving], atol=1e-6)
+    assert made.subject.mass == pytest.approx(SUBJECT.mass, rel=1e-5)
+    for name, own in SUBJECT.segments.items():
+        given = made.subject.segments[name]
+        assert (given.mass, given.centre) == pytest.approx((own.mass, own.centre), rel=1e-4)
+        assert given.gyration == pytest.approx(own.gyration, rel=1e-4)
+    off = result.table("deviations")
+    assert off["largest"].max() < 1e-4
+    assert [one.task for one in result.spans] == ["standing up"]
+
+
+def walked(folder: Path, belt: float = 0.0) -> dict[str, Any]:
+    """One leg that rolls over its foot in 0.6 s under 600 N, on a belt that takes it backwards."""
+    time = 0.01 * np.arange(140)
+    s = np.clip((time - 0.4) / 0.6, 0.0, 1.0)
+    q = np.tile([0.4, 0.1, 0.0, 0.2, 0.1, -0.1], (140, 1))
+    q[:, 3] -= 0.4 * s
+    q[:, 0] -= belt * time
+    model = whole_body(SUBJECT)
+    write_body(folder, model, time, values_of(model, SUBJECT, q, HEADING, np.zeros((len(q), 3))))
+    up = 600.0 * np.sin(np.pi * s) ** 0.5
+    ahead = 0.4 - belt * time - 0.02 + 0.12 * s
+    load = np.column_stack([0.0 * up, up, 0.0 * up, 0.0 * up, 0.0 * up, ahead * up])
+    write_plates(folder, time, {"right": load})
+    return {"model": folder / "body.osim", "plates": folder / "plates.mot", "feet": "right_force", "leg": "right"}
+
+
+def test_a_stance_is_cut_and_read_with_the_load_of_the_rest(tmp_path: Path) -> None:
+    result = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path, belt=1.1), belt=1.1)
+    (span,) = result.spans
+    assert (span.task, span.name) == ("stance", "right_1") and 0.4 < span.start < 0.45 and 0.95 < span.end < 1.0
+    opened(Record("sit-to-stand calibrate", {}))
+    made = standing_trials(result.write(tmp_path / "out") / "study.toml", "study")
+    (trial,) = made.trials
+    assert made.one_leg and trial.q.shape[1] == 5 and "rates" not in made.tracks
+    s = (span.start + trial.time - 0.4) / 0.6
+    inside = slice(8, -8)  # the ends are rounded by the low-pass
+    np.testing.assert_allclose(trial.q[inside, 0], 0.0, atol=1e-4)
+    np.testing.assert_allclose(trial.centre[inside], (0.12 * s - 0.02)[inside], atol=2e-3)
+    assert trial.chair is not None
+    weight = 9.81 * chain_of(SUBJECT, 5).mass
+    np.testing.assert_allclose((trial.chair[:, 1] + trial.force[:, 1])[inside], weight, atol=30.0)
+
+
+def test_a_treadmill_that_is_not_named_is_asked_for(tmp_path: Path) -> None:
+    given = walked(tmp_path, belt=1.1)
+    with pytest.warns(gc.InputWarning, match=r"right_1: the flat foot moves at -1\.10 m/s: on a treadmill give"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"joints": "hip_flexion,knee_angle"}, "is not three names"),
+        ({"joints": "hip,knee_angle,ankle_angle"}, "no coordinate hip_r; there are"),
+        ({"feet": "right_force,right_force"}, "names a plate twice"),
+        ({"leg": "right"}, "2 plates are named for one leg"),
+        ({"time": (0.0, 0.05)}, "frames are too few"),
+    ],
+)
+def test_refused(tmp_path: Path, changed: dict[str, Any], words: str) -> None:
+    with pytest.raises(gc.InputError, match=words):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **(in_space(tmp_path) | changed))
+
+
+def test_a_stance_has_a_study_of_its_own_and_is_not_predicted(tmp_path: Path) -> None:
+    folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path)).write(tmp_path / "out")
+    numbers = MESHES / "standing_up_exoskeleton" / "truth.csv"
+    with pytest.raises(gc.InputError, match="stances of one leg, which phase A alone takes"):
+        gc.sit_to_stand.predict(folder / "study.toml", parameters=numbers, against=folder / "study.toml")
+    text = (folder / "study.toml").read_text(encoding="utf-8")
+    (folder / "both.toml").write_text(f'{text}\n[[trials]]\nname = "up"\ncoordinates = "coordinates.mot"\n')
+    with pytest.raises(gc.InputError, match="a stance is of one leg, the other trials of both"):
+        gc.sit_to_stand.calibrate(folder / "both.toml")
+
+
+@pytest.mark.slow
+def test_a_stance_is_calibrated_to_files(tmp_path: Path) -> None:
+    """Solved and certified; its motion, loads and model are those of one leg."""
+    folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path)).write(tmp_path / "out")
+    found = gc.sit_to_stand.calibrate(folder / "study.toml", nodes=40, resamples=0)
+    assert found.found.solved and all(trial.certified for trial in found.trials)
+    assert found.trials[0].model.q.shape[1] == 5
+    written = found.write(tmp_path / "cal")
+    assert read_table(written / "coordinates_right_1.mot").channels == COORDINATES[:5]
+    assert "trunk" not in (written / "model.osim").read_text(encoding="utf-8")
+    assert (written / "report.html").is_file() and "thigh" in (written / "loads_right_1.xml").read_text(
+        encoding="utf-8"
+    )
