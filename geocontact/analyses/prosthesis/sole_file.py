@@ -25,6 +25,8 @@ WORDS = ("heel", "mid", "fore", "toe")
 """Beginnings of names of zones, from the back of a sole to its front."""
 MANY, MOST = 240, 1200
 """Columns of foam that are slow, and too many."""
+CUT = {"column": Number(4e-3, "invented", "how finely the foam is cut"), "across": Number(2.0, "invented", "likewise")}
+"""Breadth of a column along the foot [m], and columns side by side."""
 OF_FOAM = ("thickness", "modulus", "retardation", "static", "kinetic")
 
 
@@ -103,8 +105,8 @@ def foam_of(file: Path, d: FoamDescription, keel: Keel) -> DescribedSole:
     numbers = {zone: FoamNumbers(*(getattr(own, name).value for name in OF_FOAM)) for zone, own in d.zones.items()}
     sole = foam_sole(keel, foam, d.below.value, {zone: each.thickness for zone, each in numbers.items()})
     law = foam_law(sole, numbers, *(shared[name].value for name in SHARED))
-    origin = {f"sole {name}": number_of(getattr(d, name)) for name in ("below", "breadth", "column", "across")}
-    origin |= {f"sole {name}": number for name, number in shared.items()}
+    origin = {f"sole {name}": number_of(getattr(d, name)) for name in ("below", "breadth")}
+    origin |= {f"sole {name}": number for name, number in (_usual(d) | shared).items()}
     for zone, own in d.zones.items():
         origin |= {f"sole {zone}_{name}": number_of(getattr(own, name)) for name in ("to", *OF_FOAM)}
     return DescribedSole(sole, law, d.below.value, origin)
@@ -114,8 +116,9 @@ def _cut(file: Path, d: FoamDescription, keel: Keel) -> Foam:
     """How the foam is cut into columns."""
     if not d.zones:
         raise InputError(file, "[foam.zones]", "there is no zone", "write for example [foam.zones.heel]")
-    if d.across.value != round(d.across.value):
-        raise InputError(file, "[foam] across", f"{d.across.value:g} is no count", "write a whole number")
+    column, across = (_usual(d)[name].value for name in CUT)
+    if across != round(across):
+        raise InputError(file, "[foam] across", f"{across:g} is no count", "write a whole number")
     before = 0.0
     for zone, own in d.zones.items():
         if not own.to.value > before:
@@ -126,13 +129,19 @@ def _cut(file: Path, d: FoamDescription, keel: Keel) -> Foam:
         what = f"the foam ends at {1e3 * before:g} mm, the keel at {1e3 * keel.length:g} mm"
         raise InputError(file, "[foam.zones] to", what, "it counts along the keel; check its unit")
     ends = tuple((zone, own.to.value) for zone, own in d.zones.items())
-    foam = Foam(d.breadth.value, d.column.value, round(d.across.value), ends)
+    foam = Foam(d.breadth.value, column, round(across), ends)
     count = foam.across * sum(columns for _, _, columns in foam.cuts.values())
     if count > MOST:
         raise InputError(file, "[foam] column", f"{count} columns are too many", f"up to {MOST}: write broader ones")
     if count > MANY:
         reserve(f"{file} [foam]: {count} columns; a simulation takes long with more than {MANY}")
     return foam
+
+
+def _usual(d: FoamDescription) -> dict[str, Number]:
+    """How finely foam is cut, as the file states it or usually."""
+    given = {name: getattr(d, name) for name in CUT}
+    return {name: CUT[name] if each is None else number_of(each) for name, each in given.items()}
 
 
 def _shared(d: SoleDescription | FoamDescription) -> dict[str, Number]:

@@ -90,9 +90,7 @@ FOAM_RETARDATION = Plausible(
     "the retardation of foam", S, (0.0, 10.0), (1e-4, 0.2), or_zero=True, why="a loss factor of 0.001 to 1 at 1 Hz"
 )
 COLUMN = Plausible("the breadth of a column of foam", mm, (0.2, 50.0), (0.5, 10.0))
-USUAL_COLUMN = StatedNumber(4e-3, "option", "breadth of a column of foam")
 ACROSS = Plausible("columns of foam side by side", PLAIN, (1.0, 40.0))
-USUAL_ACROSS = StatedNumber(2.0, "option", "columns of foam side by side")
 GAUGE = Plausible("the standard deviation of a measured deflection", mm, (0.0, 500.0), (1e-3, 1.0), or_zero=True)
 PRESSED = Plausible("how far a sole is compressed", mm, (0.0, 500.0), (0.5, 30.0))
 TILTED = Plausible("the tilt of a plate against a sole", deg, (-90.0, 90.0), (0.0, 45.0))
@@ -237,13 +235,13 @@ class FoamZone(Document):
     Parameters
     ----------
     to
-        Where it ends along the keel; it begins where the one before ends.
+        Where it ends; it begins where the one before ends.
     thickness
-        Of the foam; it is pressed by a share of this.
+        Of the foam.
     modulus
-        Pressure over the share it is pressed by; with another exponent than 1 the pressure at a share of 1.
+        Pressure over strain, or at a strain of 1.
     retardation
-        Damping over stiffness, while it is pressed on.
+        Damping over stiffness.
     static, kinetic
         Coefficients of friction.
     """
@@ -262,27 +260,25 @@ class FoamDescription(Document):
     Parameters
     ----------
     below
-        From the keel's axis to the flat lower side of the sole.
+        From the keel's axis to the flat sole.
     breadth
         Of the sole.
     column
-        Breadth of a column along the foot, nearly: a zone has a whole number of them; 4 mm by default.
+        Breadth of a column along it, nearly; 4 mm by default.
     across
         Columns side by side; 2 by default.
     exponent
-        Of the pressure over the share that the foam is pressed by; 1 by default.
-    full_depth
-        Depth from which damping acts fully; 2 mm by default.
-    threshold_speed
-        Speed below which what sticks creeps; 10 mm/s by default.
+        Of pressure over strain; 1 by default.
+    full_depth, threshold_speed
+        As those of spheres.
     zones
         Foam of each zone by its name, from the heel.
     """
 
     below: Length
     breadth: Width
-    column: Annotated[StatedNumber, _quantity(COLUMN)] = USUAL_COLUMN
-    across: Annotated[StatedNumber, FootQuantity(ACROSS, bare=True, sources=SOURCES)] = USUAL_ACROSS
+    column: Annotated[StatedNumber, _quantity(COLUMN)] | None = None
+    across: Annotated[StatedNumber, FootQuantity(ACROSS, bare=True, sources=SOURCES)] | None = None
     exponent: Annotated[StatedNumber, _quantity(EXPONENT)] | None = None
     full_depth: Annotated[StatedNumber, _quantity(ABOVE_GROUND)] | None = None
     threshold_speed: Annotated[StatedNumber, _quantity(CREEP)] | None = None
