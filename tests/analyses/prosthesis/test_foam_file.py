@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 import warnings
 from pathlib import Path
 
@@ -14,9 +15,10 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.foot_file import foot_of
 from geocontact.analyses.prosthesis.foot_writer import write_foot
 from geocontact.analyses.prosthesis.number_units import unit_of
+from geocontact.analyses.prosthesis.recorded_files import foot_with_law
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_of
-from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
+from geocontact.below_knee_prosthesis.foot_numbers import all_numbers, foot_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_on_foam
 from geocontact.below_knee_prosthesis.stance_model import stance_numbers
 from meshes.make_foot import compressions
@@ -163,3 +165,49 @@ def test_the_keel_command_identifies_the_foam(tmp_path: Path) -> None:
     assert not (tmp_path / "out" / "spheres.csv").exists()
     np.testing.assert_allclose(again.law.stiffness, found.foot.law.stiffness, rtol=1e-12)
     assert again.record.origin["sole forefoot_modulus"].source == "derived"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[zone.heel]\nk = 2e4\n", "k and b are of one sphere, and the sole of bar foot has 75 columns of foam"),
+        ("columns = 60\nb = 10.0\n", "k and b are of one of 60 columns of foam, and the sole of bar foot has 75"),
+    ],
+)
+def test_a_law_of_another_sole_is_refused(tmp_path: Path, text: str, words: str) -> None:
+    """38 kN/m of a sphere were taken for that of each of 75 columns."""
+    foot, law = foot_of(written(tmp_path)), tmp_path / "law.toml"
+    law.write_text(text)
+    opened(Record("prosthesis simulate", {}))
+    with pytest.raises(gc.InputError, match=words):
+        foot_with_law(foot, law)
+    law.write_text("columns = 75\nmu_k = 0.3\n[zone.heel]\nk = 2e4\n")
+    changed = foot_with_law(foot, law)
+    heel = np.array(foot.sole.spheres.zone) == "heel"
+    np.testing.assert_allclose(changed.law.stiffness[heel], 2e4)
+    np.testing.assert_allclose(changed.law.stiffness[~heel], foot.law.stiffness[~heel])
+    numbers = foot_numbers(changed, 0.09)
+    assert numbers["sole heel_modulus"].value == pytest.approx(2e4 * 0.02**2 / (0.01 * 0.02), rel=1e-12)
+    with pytest.raises(gc.InputError, match="k and b are of one of 75 columns of foam, and the sole of the variable"):
+        foot_with_law(foot_of(None), law)
+
+
+@pytest.mark.slow
+def test_foam_is_calibrated_and_its_law_goes_on(tmp_path: Path) -> None:
+    """Shipped trial, coarse columns: law.toml says of what it is, and the simulated stance carries the person."""
+    write_foot(tmp_path, vsf_on_foam(20e-3, 1))
+    foot, count = tmp_path / "foot.toml", len(vsf_on_foam(20e-3, 1).sole.spheres)
+    given = {name: GIVEN[name] for name in ("static", "mass", "plates", "plate")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", gc.InputWarning)
+        found = gc.prosthesis.calibrate(TRIAL / "walking.trc", foot=foot, starts=0, **given)
+        law = found.write(tmp_path / "calibrated") / "law.toml"
+        stance = gc.prosthesis.simulate(TRIAL / "walking.trc", foot=foot, law=law, socket_turns=0, **GIVEN).stance
+    said = tomllib.loads(law.read_text())
+    assert said["columns"] == count == len(stance.foot.sole.spheres)
+    area = 0.06 * (0.229 - 0.148) / stance.foot.sole.spheres.zone.count("forefoot")
+    modulus = said["zone"]["forefoot"]["k"] * 0.02 / area
+    assert f"E {1e-6 * modulus:.4g} MPa" in law.read_text()
+    np.testing.assert_allclose(stance.foot.law.stiffness[-1], said["zone"]["forefoot"]["k"])
+    assert 1.0 < stance.force[:, 1].max() / (77.3 * 9.80665) < 1.6
+    assert found.vertical.r2 > 0.8

@@ -61,7 +61,6 @@ HEAD = """\
 # Force law of the sole, calibrated on recorded stances; SI units. Numbers marked unknown were never loaded; those
 # marked not identified are determined by the prior, not by the stances.
 """
-OF_COLUMNS = "# k and b are of one column of foam, cut as in the foot's file: they hold for no other cut.\n"
 FOOT = """
 [foot]  # offset from its standing trial, identified with the law; `sd` are standard deviations
 height = {height!r}  # m, its middle raised
@@ -86,7 +85,7 @@ def law_toml(found: SoleCalibration | WholeCalibration, standing: str) -> str:
     sole = found.residuals.zones.sole
     foam = {} if sole.foam is None else foam_numbers(sole, law)
     if foam:
-        lines.insert(1, OF_COLUMNS)
+        lines.append(f"columns = {count}  # of foam; k and b are of one of them, and hold for no other cut")
     for zone, chosen in sole.spheres.zones.items():
         k = int(np.flatnonzero(chosen)[0])
         static, kinetic = (float(np.broadcast_to(each, count)[k]) for each in (law.static, law.kinetic))
