@@ -80,7 +80,7 @@ class Foam:
 
     @property
     def area(self) -> dict[str, float]:
-        """Of a column of each zone [m²]."""
+        """Area of a column of each zone [m²]."""
         strip = self.breadth / self.across
         return {zone: strip * (stop - start) / count for zone, (start, stop, count) in self.cuts.items()}
 
