@@ -171,7 +171,8 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
 
 def _require_same_cut(foot: VariableStiffnessFoot, law: LawFile, file: Path) -> None:
     """InputError for stiffness or damping of a sphere or column of another sole than the foot's."""
-    of_one = [each for each in (law, *law.zone.values()) if each.k is not None or each.b is not None]
+    zones = [number for each in law.zone.values() for number in (each.k, each.b)]
+    of_one = any(number is not None for number in (law.k, law.b, *zones))
     spheres = foot.sole.spheres
     columns = None if foot.sole.foam is None else len(spheres)
     if not of_one or law.columns == columns:

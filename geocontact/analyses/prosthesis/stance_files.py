@@ -50,8 +50,8 @@ def write_spheres(folder: Path, s: Stance, side: Side) -> None:
     """foot.pvd: centres of the spheres, or lower ends of the foam, in lines along the foot, with the force on each."""
     kept = slice(None, None, EVERY)
     centres, force = of_side(s.loads.centre[kept], side), of_side(s.loads.force[kept], side)
-    side = s.foot.sole.spheres.centre[:, 2]
-    lines = [tuple(np.flatnonzero(side == z).tolist()) for z in np.unique(side)]
+    beside = s.foot.sole.spheres.centre[:, 2]
+    lines = [tuple(np.flatnonzero(beside == z).tolist()) for z in np.unique(beside)]
     write_line_series(folder, "foot", LineSeries(s.time[kept], centres, lines), {"force of the ground [N]": force})
 
 
