@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.cop.foot import sole_law
+from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.foot_file import foot_of
 from geocontact.analyses.prosthesis.foot_writer import write_foot
@@ -21,6 +23,7 @@ from geocontact.analyses.prosthesis.simulate.walk import bushing_of, read, walk_
 from geocontact.below_knee_prosthesis.foot_numbers import all_numbers, foot_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_on_foam
 from geocontact.below_knee_prosthesis.stance_model import stance_numbers
+from geocontact.io.recordings.spheres import read_spheres
 from meshes.make_foot import compressions
 from tests.analyses.prosthesis.test_foot_file import BAR, SPHERES
 from tests.analyses.prosthesis.test_numbers_that_ran import leg_of, socket_of
@@ -190,6 +193,15 @@ def test_a_law_of_another_sole_is_refused(tmp_path: Path, text: str, words: str)
     assert numbers["sole heel_modulus"].value == pytest.approx(2e4 * 0.02**2 / (0.01 * 0.02), rel=1e-12)
     with pytest.raises(gc.InputError, match="k and b are of one of 75 columns of foam, and the sole of the variable"):
         foot_with_law(foot_of(None), law)
+
+
+def test_a_law_of_foam_is_none_of_spheres(tmp_path: Path) -> None:
+    (tmp_path / "spheres.csv").write_text(SPHERES)
+    (tmp_path / "law.toml").write_text("columns = 75\nk = 2e4\n")
+    table = read_spheres(tmp_path / "spheres.csv")
+    opened(Record("cop", {}))
+    with pytest.raises(gc.InputError, match="k and b are of columns of foam; give a law of spheres"):
+        sole_law(table, CopOptions(tmp_path / "spheres.csv", motion=tmp_path / "foot.csv", law=tmp_path / "law.toml"))
 
 
 @pytest.mark.slow
