@@ -23,7 +23,7 @@ from geocontact.io.recordings.foot_description import FootDescription
 from geocontact.io.recordings.gait_study import GaitStudy
 from geocontact.io.recordings.overhead_study import OverheadStudy
 from geocontact.io.recordings.population import PopulationDescription, QuantityEntry
-from geocontact.io.recordings.shoulder_device import DeviceDescription
+from geocontact.io.recordings.shoulder_device import DeviceDescription, StatedNumber
 from geocontact.io.recordings.socket_description import SocketDescription
 from geocontact.io.recordings.standing_study import StandingStudy
 from geocontact.study.description import StudyFile
@@ -229,7 +229,7 @@ def _unit(one: WithUnit) -> str:
         return ""
     if isinstance(one.known, Plausible):
         low, high = one.known.possible
-        return f", {low:g} to {high:g} {one.known.unit.name}"
+        return f", {low:g} to {high:g} {one.known.unit.name}".rstrip()
     return f", {one.si}"
 
 
@@ -243,6 +243,7 @@ def _default(field: FieldInfo) -> str:
     if field.is_required():
         return REQUIRED
     value = field.default
+    value = value.value if isinstance(value, StatedNumber) else value
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, tuple) and value:

@@ -1,10 +1,9 @@
 """The sole as foam beside spheres: `python -m benchmarks.prosthesis.foam [--settings low medium high]`.
 
-The foam is an elastic foundation: flat columns side by side under the keel, each of the stiffness and damping that its
-zone has per length, none of which knows its neighbours. Columns are points where spheres are round. Soles of 24, 48 and
-96 spheres and columns of 8 to 1 mm are each fitted to the study's three compressions and put under the same load and
-pitch (`benchmarks.prosthesis.keel_stance`), without inertia. The reference is foam of 1 mm. Told are the centre of
-pressure under the same load, the force along the reference's own poses, and the CPU time of all frames with damping
+The foam is that of `[foam]` in a foot's file (`keel.foam`), each zone as stiff and damped as its spheres. Soles of 24,
+48 and 96 spheres and columns of 8 to 1 mm are each fitted to the study's three compressions and put under the same load
+and pitch (`benchmarks.prosthesis.keel_stance`), without inertia. The reference is foam of 1 mm. Printed are the centre
+of pressure under the same load, the force along the reference's own poses, and the CPU time of all frames with damping
 and friction.
 benchmarks/results/prosthesis_foam.json.
 """
@@ -13,49 +12,26 @@ from __future__ import annotations
 
 import argparse
 import time
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from benchmarks.machine import write_results
 from benchmarks.prosthesis.keel_stance import LEVEL, WEIGHT, Stance, stance
-from geocontact.below_knee_prosthesis.keel.compression import Compressed, calibrated_on_sole
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.keel.sole import ZONES, KeelSole, law_of, numbers
-from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_foot, vsf_keel, vsf_record
+from geocontact.below_knee_prosthesis.keel.vsf import SETTINGS, fulcrum_of, vsf_foot, vsf_on_foam
 from geocontact.loads.centre_of_pressure import centre_of_pressure
-from geocontact.loads.sphere_set import SphereSet
 
-POINT = 1e-6
-"""m; radius of a column's end."""
 COLUMNS = (8e-3, 4e-3, 2e-3, 1e-3)
 """m; breadths of a column along the foot."""
 SPHERES = {24: (1, 2), 48: (2, 2), 96: (2, 4)}
 REPEATS = 5
 
 
-@lru_cache(maxsize=8)
-def foam(pitch: float) -> VariableStiffnessFoot:
-    """A foot on columns about so broad [m], fitted like the usual one."""
-    keel, below = vsf_keel(), numbers()["below"].value
-    places, zones = [], []
-    for zone, (start, stop, _) in ZONES.items():
-        count = max(round((stop - start) / pitch), 1)
-        places += list(start + (stop - start) * (np.arange(count) + 0.5) / count)
-        zones += [zone] * count
-    centre = np.column_stack([places, np.full(len(places), POINT - below), np.zeros(len(places))])
-    spheres = SphereSet(centre, np.full(len(places), POINT), tuple(zones))
-    sole = KeelSole(spheres, tuple(keel.segment_of(centre[:, 0])))
-    measured = [Compressed(fulcrum_of(name), stiffness) for name, stiffness in SETTINGS.items()]
-    bent, law = calibrated_on_sole(keel, sole, law_of(sole), measured)
-    return VariableStiffnessFoot(bent, sole, law, vsf_record(bent, sole, law))
-
-
 def feet() -> dict[str, VariableStiffnessFoot]:
     """By name, the reference last."""
     found = {f"{count} spheres": vsf_foot(finer=f, columns=c) for count, (f, c) in SPHERES.items()}
-    return found | {f"foam of {1e3 * pitch:g} mm": foam(pitch) for pitch in COLUMNS}
+    return found | {f"foam of {1e3 * pitch:g} mm": vsf_on_foam(pitch, across=1) for pitch in COLUMNS}
 
 
 def along(foot: VariableStiffnessFoot, fulcrum: float, one: Stance) -> tuple[np.ndarray, np.ndarray, float]:

@@ -342,7 +342,7 @@ def oddness(errors: Mapping[str, float]) -> dict[str, Oddness]:
 def reasons(one: JudgedStance) -> Sequence[str]:
     """What a stance shows that the plate does not: each in words; empty where nothing of it is seen."""
     s, errors = one.stance, one.errors
-    share = (s.time - errors.start) / errors.stance[1]
+    share, spheres = (s.time - errors.start) / errors.stance[1], s.foot.sole.spheres
     inside = (share > INSIDE[0]) & (share < INSIDE[1])
     found = []
     lost = inside & (s.force[:, 1] < GATE)
@@ -357,14 +357,14 @@ def reasons(one: JudgedStance) -> Sequence[str]:
     if above > OVERSHOT:
         at = float(errors.share[np.argmax(early)])
         touching = int((s.loads.pressing[int(np.argmin(np.abs(share - at)))] > 0.0).sum())
-        found.append(f"{above:.1f} BW too much at {100.0 * at:.0f} % of the stance, on {touching} spheres")
+        found.append(f"{above:.1f} BW too much at {100.0 * at:.0f} % of the stance, on {touching} {spheres.kinds}")
     late = errors.stance[0] - errors.stance[1]
     if not np.isfinite(late):
         found.append("its simulation ended before toe-off")
     elif abs(late) > LATE:
         found.append(f"the stance lasts {1e3 * late:+.0f} ms")
-    if (s.loads.depth > s.foot.sole.spheres.radius).any():
-        found.append("a sphere sinks beyond its radius")
+    if (s.loads.depth > spheres.deepest).any():
+        found.append(f"a {spheres.kind} sinks beyond its {spheres.limit}")
     if any(beyond.any() for beyond in s.beyond):
         found.append("the socket is past its limit")
     return found

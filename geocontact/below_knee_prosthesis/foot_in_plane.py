@@ -60,7 +60,12 @@ def in_plane(time: Float[np.ndarray, " t"], poses: RigidTransform) -> FootInPlan
 
 
 def rows_of(spheres: SphereSet) -> tuple[str, ...]:
-    """Zone of each sphere by its row across the sole: the zone's name, numbered from the heel where it has several."""
+    """Zone of each sphere by its row across the sole: the zone's name, numbered from the heel where it has several.
+
+    Foam has too many rows for a number each: its zones are left as they are.
+    """
+    if spheres.thickness is not None:
+        return spheres.zone
     found = np.empty(len(spheres), dtype=object)
     for zone, of in spheres.zones.items():
         along = np.unique(spheres.centre[of, 0])

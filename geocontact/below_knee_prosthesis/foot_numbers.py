@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import isclose
 
+from geocontact.below_knee_prosthesis.keel.foam import foam_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, SHARED, zone_number
+from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, SHARED, Foam, zone_number
 from geocontact.below_knee_prosthesis.leg import Leg
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
 from geocontact.below_knee_prosthesis.simulate import Stance
@@ -15,6 +17,8 @@ from geocontact.contact.bushing import SOCKET as AS_MEANT
 from geocontact.data.parameter import Number, Source
 
 GIVEN = "as the law's file gives it"
+ROUNDING = 1e-12
+"""Relative error of a modulus that went through the stiffness of a column."""
 STATED = Number(0.0, "option", "as the foot's file states it")
 
 
@@ -83,6 +87,26 @@ def _keel(foot: VariableStiffnessFoot, fulcrum: float) -> Iterator[tuple[str, Nu
 
 
 def _sole(foot: VariableStiffnessFoot) -> Iterator[tuple[str, Number]]:
+    """Spheres or foam, and what all of a sole share."""
+    origin, law = foot.record.origin, foot.law
+    yield from _spheres(foot) if foot.sole.foam is None else _foam(foot, foot.sole.foam)
+    for name in SHARED:
+        yield name, _stated(origin, f"sole {name}", float(getattr(law, name)))
+
+
+def _foam(foot: VariableStiffnessFoot, foam: Foam) -> Iterator[tuple[str, Number]]:
+    """Foam as it is cut, and its numbers by zone."""
+    origin, spheres = foot.record.origin, foot.sole.spheres
+    lowest = {"below": float((spheres.radius - spheres.centre[:, 1]).max())}
+    for name, value in (lowest | {"breadth": foam.breadth, "column": foam.column, "across": foam.across}).items():
+        yield name, replace(origin.get(f"sole {name}", STATED), value=float(value))
+    numbers = foam_numbers(foot.sole, foot.law)
+    for zone, end in foam.ends:
+        for name, value in ({"to": end} | vars(numbers[zone])).items():
+            yield f"{zone}_{name}", _stated(origin, f"sole {zone}_{name}", float(value))
+
+
+def _spheres(foot: VariableStiffnessFoot) -> Iterator[tuple[str, Number]]:
     """Spheres as they lie; all of one zone have one law. Radius and height by sphere where they differ."""
     origin, spheres, law = foot.record.origin, foot.sole.spheres, foot.law
     places = origin.get("sole places", STATED)
@@ -101,11 +125,13 @@ def _sole(foot: VariableStiffnessFoot) -> Iterator[tuple[str, Number]]:
     for zone, of in spheres.zones.items():
         for kind in BY_ZONE:
             yield f"{zone}_{kind}", _stated(origin, f"sole {zone}_{kind}", zone_number(law, kind, of))
-    for name in SHARED:
-        yield name, _stated(origin, f"sole {name}", float(getattr(law, name)))
 
 
 def _stated(origin: Mapping[str, Number], name: str, value: float) -> Number:
     """A number of the law as its foot has it, else as another file gives it."""
     known = origin.get(name)
-    return known if known is not None and known.value == value else Number(value, "derived", GIVEN)
+    return (
+        known
+        if known is not None and isclose(known.value, value, rel_tol=ROUNDING)
+        else Number(value, "derived", GIVEN)
+    )

@@ -66,10 +66,11 @@ def _socket(found: Stance) -> list[str]:
 
 def _sole(found: Stance) -> list[str]:
     said, loads, spheres = [], found.loads, found.foot.sole.spheres
-    sunk = loads.depth > spheres.radius
+    sunk = loads.depth > spheres.deepest
     if sunk.any():
         deepest = 1e3 * loads.depth.max()
-        said.append(f"{int(sunk.any(axis=0).sum())} spheres sink beyond their radius, up to {deepest:.0f} mm")
+        many = int(sunk.any(axis=0).sum())
+        said.append(f"{many} {spheres.kinds} sink beyond their {spheres.limit}, up to {deepest:.0f} mm")
     idle = [zone for zone, of in spheres.zones.items() if not (loads.pressing[:, of] > 0.0).any()]
     if idle:
         said.append(f"never loaded: {', '.join(idle)}; its numbers stay unknown")

@@ -1,4 +1,4 @@
-"""The spheres that stand for the sole of a foot, and what the ground does to each of them."""
+"""The spheres, or columns of foam, that stand for the sole of a foot, and what the ground does to each of them."""
 
 from __future__ import annotations
 
@@ -24,17 +24,47 @@ class SphereSet:
         [m].
     zone
         Zone of each sphere.
+    thickness
+        Of the foam [m], where these are the ends of columns of it, so small that they are points; None for spheres.
     """
 
     centre: Float[np.ndarray, "n 3"]
     radius: Float[np.ndarray, " n"]
     zone: tuple[str, ...]
+    thickness: Float[np.ndarray, " n"] | None = None
 
     def __post_init__(self) -> None:
         if len(self.zone) != len(self.radius) or not len(self.radius):
             raise ValueError(f"{len(self.radius)} spheres with {len(self.zone)} zones; every sphere has one")
         if not (np.isfinite(self.centre).all() and (self.radius > 0.0).all() and np.isfinite(self.radius).all()):
             raise ValueError("spheres need finite centres and positive radii")
+        if self.thickness is not None and not (self.thickness > 0.0).all():
+            raise ValueError("foam needs a positive thickness")
+
+    @property
+    def deepest(self) -> Float[np.ndarray, " n"]:
+        """Depth [m] beyond which a sphere's centre, or the whole thickness of the foam, is in the ground."""
+        return self.radius if self.thickness is None else self.thickness
+
+    @property
+    def limit(self) -> str:
+        """What `deepest` is of each of them."""
+        return "radius" if self.thickness is None else "thickness"
+
+    @property
+    def kind(self) -> str:
+        """What one of them is called."""
+        return "sphere" if self.thickness is None else "column of foam"
+
+    @property
+    def kinds(self) -> str:
+        """What several of them are called."""
+        return "spheres" if self.thickness is None else "columns of foam"
+
+    def chosen(self, of: Bool[np.ndarray, " n"]) -> SphereSet:
+        """Some of them."""
+        zone = tuple(name for name, kept in zip(self.zone, of, strict=True) if kept)
+        return SphereSet(self.centre[of], self.radius[of], zone, None if self.thickness is None else self.thickness[of])
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -129,15 +159,15 @@ def sphere_loads(
     poses, rate
         Poses `X_GF` of the foot in the ground's frame, one per frame, and their time derivative (`pose_rate`).
 
-    A centre deeper in the ground than the largest radius is a ValueError: that is a mistaken frame, not a contact.
+    One that is deeper than any of `SphereSet.deepest` is a ValueError: that is a mistaken frame, not a contact.
     """
     matrices = poses.as_matrix().reshape(-1, 4, 4)
     turn, count = matrices[:, :3, :3], len(spheres)
     centre = np.einsum("tij,nj->tni", turn, spheres.centre) + matrices[:, None, :3, 3]
-    limit = float(spheres.radius.max())
+    limit = float(spheres.deepest.max())
     near = ground.proximity(centre.reshape(-1, 3), limit)
     depth = spheres.radius - near.distance.reshape(-1, count)
-    _refuse_buried(depth)
+    _refuse_buried(depth, spheres)
     frame, sphere = np.nonzero(depth > 0.0)
     normal = np.full_like(centre, np.nan)
     point = np.full_like(centre, np.nan)
@@ -171,8 +201,9 @@ def _velocity(rate: Float[np.ndarray, "c 4 4"], body_point: Float[np.ndarray, "c
     return np.asarray(np.einsum("cij,cj->ci", rate[:, :3, :3], body_point) + rate[:, :3, 3])
 
 
-def _refuse_buried(depth: Float[np.ndarray, "t n"]) -> None:
+def _refuse_buried(depth: Float[np.ndarray, "t n"], spheres: SphereSet) -> None:
     buried = np.argwhere(np.isposinf(depth))
     if len(buried):
         frame, sphere = buried[0]
-        raise ValueError(f"sphere {sphere + 1} is deeper under the ground than any radius in frame {frame + 1}")
+        one = f"{spheres.kind} {sphere + 1}"
+        raise ValueError(f"{one} is deeper under the ground than any {spheres.limit} in frame {frame + 1}")

@@ -114,6 +114,20 @@ def test_the_prosthetic_foot_s_steps_and_soles() -> None:
         assert int(steps) == one["steps"]
 
 
+def test_foam_beside_spheres() -> None:
+    page, told = "theory/prosthesis_stance.md", results("prosthesis_foam")["figures"]
+    text = " ".join((ROOT / "docs" / page).read_text(encoding="utf-8").split())
+    ends = {}
+    for sole in ("foam of 4 mm", "48 spheres"):
+        for name in ("force_rms_bw", "centre_rms_share"):
+            values = [100.0 * one[sole][name] for one in told.values()]
+            ends[sole, name] = f"{min(values):.0f} to {max(values):.0f} %"
+    assert f"columns of 4 mm are {ends['foam of 4 mm', 'force_rms_bw']} BW and 1 % of the foot off" in text
+    assert ends["foam of 4 mm", "centre_rms_share"] == "1 to 1 %"
+    spheres = [ends["48 spheres", name] for name in ("force_rms_bw", "centre_rms_share")]
+    assert f"48 spheres {spheres[0]} and {spheres[1]}" in text
+
+
 def test_the_real_ankle_s_loops_and_the_intact_foot() -> None:
     for kind in ("none", "viscous", "hysteresis", "friction"):
         one, cells = results("desr_hysteresis")["figures"][f"pinned; {kind}"], row("theory/prosthesis_keel.md", kind)

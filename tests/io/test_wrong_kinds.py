@@ -293,6 +293,36 @@ sd = { value = 0.3, unit = "N/mm" }
             ".* (source|note)": ("number", "bool", "list", "table", "date"),
         },
     ),
+    "foot on foam": Description(
+        read_foot_description,
+        """[keel]
+length = { value = 240, unit = "mm" }
+posterior = { value = 66, unit = "mm" }
+lowest = { value = 66, unit = "mm" }
+highest = { value = 170, unit = "mm" }
+width = { value = 58, unit = "mm" }
+density = { value = 1600, unit = "kg/m^3" }
+[foam]
+below = { value = 28, unit = "mm" }
+breadth = { value = 58, unit = "mm" }
+column = { value = 4, unit = "mm" }
+across = 2
+exponent = { value = 1, unit = "-" }
+full_depth = { value = 2, unit = "mm" }
+threshold_speed = { value = 0.01, unit = "m/s" }
+[foam.zones.heel]
+to = { value = 240, unit = "mm" }
+thickness = { value = 20, unit = "mm", source = "paper", note = "table 1" }
+modulus = { value = 0.5, unit = "MPa" }
+retardation = { value = 10, unit = "ms" }
+static = { value = 0.8, unit = "-" }
+kinetic = { value = 0.7, unit = "-" }
+""",
+        {
+            "foam across": ("number", "table"),
+            ".* (source|note)": ("number", "bool", "list", "table", "date"),
+        },
+    ),
     "gait": Description(
         read_gait_study,
         """[persons.P1]

@@ -64,6 +64,8 @@ def test_a_key_without_a_meaning_is_noticed() -> None:
 
 SAMPLES = ("study", "gathering", "population", "overhead", "device", "foot", "socket", "gait", "standing")
 """Descriptions of `tests.io.test_wrong_kinds` in the order of the page."""
+OTHERS = {"foot": ("foot on foam",)}
+"""Further descriptions of the same file, for keys that exclude each other."""
 
 
 @pytest.mark.parametrize(("what", "file"), list(zip(SAMPLES, FILES, strict=True)))
@@ -72,7 +74,8 @@ def test_every_key_that_is_declared_is_given_wrong_values_by_a_test(what: str, f
     declared = {row.key.strip("`") for row in rows if not row.key.endswith("any other")}
     optional = {"length", "rate", "force", "centre", "torque"}  # of [noise], all declared as `angle` is
     optional |= {"foot_plate", "thigh", "module", "turning_damping", "energy", "foot_jerk", "joint_jerk"}  # as theirs
-    given = {place[-1] for place, _ in places(tomllib.loads(DESCRIPTIONS[what].text))}
+    texts = [DESCRIPTIONS[name].text for name in (what, *OTHERS.get(what, ()))]
+    given = {place[-1] for text in texts for place, _ in places(tomllib.loads(text))}
     assert len(declared) >= 3 and declared - given <= (optional if what == "standing" else set())
 
 

@@ -122,6 +122,8 @@ def sole_law(table: SphereTable, o: CopOptions) -> SoleLaw:
     file = LawFile() if o.law is None else read_law(o.law)
     if o.law is not None:
         add_input("law", o.law)
+    if file.columns is not None:
+        raise InputError(o.law or "", "columns", "k and b are of columns of foam", "give a law of spheres")
     if file.foot is not None:
         reserve(f"{o.law}: [foot] is an offset from the standing trial of a prosthesis and has no effect here")
     columns = {key: each for key, each in (("k", table.stiffness), ("b", table.damping)) if each is not None}

@@ -7,32 +7,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.prosthesis.sole_file import DescribedSole, foam_of, number_of, spheres_of
 from geocontact.below_knee_prosthesis.keel.foot import FootRecord, VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
 from geocontact.below_knee_prosthesis.keel.sections import ONE, Sections
-from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, KeelSole, law_of, sole_of, sole_origin
+from geocontact.below_knee_prosthesis.keel.sole import law_of, sole_of, sole_origin
 from geocontact.below_knee_prosthesis.keel.sole import numbers as usual_sole
 from geocontact.below_knee_prosthesis.keel.vsf import NAME
 from geocontact.data.errors import InputError
-from geocontact.data.parameter import SOURCES, Number, Source
+from geocontact.data.parameter import Number
 from geocontact.data.plausible import Plausible
 from geocontact.data.units import mm
 from geocontact.io.recordings.foot_description import (
     FootDescription,
     KeelDescription,
     KeelSection,
-    SoleDescription,
     read_foot_description,
 )
-from geocontact.io.recordings.shoulder_device import StatedNumber
-from geocontact.io.recordings.spheres import read_spheres
-from geocontact.loads.sphere_set import SoleLaw, SphereSet
 
 SHIPPED = Path(__file__).parent / "shipped_foot" / "foot.toml"
 RETARDATION = Number(2e-3, "invented", "a loss factor of 0.013 at 1 Hz")
@@ -43,8 +39,6 @@ UNKNOWN_BENDING = 20.0
 NAMED = ("length", "posterior", "joints", "lowest", "highest", "width", "density")
 ROUNDING = 1e-6
 """m; of a length in mm."""
-ALONG = ("heel", "mid", "fore", "toe")
-"""Words in names of zones, from the back of a sole to its front."""
 AT_TIP = 1e-6
 """Share of the keel's length by which the last section may end beside the tip."""
 
@@ -82,7 +76,8 @@ def foot_of(file: Path | None) -> VariableStiffnessFoot:
 
 def keep_inputs(file: Path, found: FootFile) -> None:
     """Keep the files of a foot for run.json."""
-    add_input("`foot`", file, spheres=len(found.foot.sole.spheres))
+    spheres = found.foot.sole.spheres
+    add_input("`foot`", file, **{"spheres" if spheres.thickness is None else "columns": len(spheres)})
     if found.described.sole is not None:
         add_input("spheres", found.described.sole.spheres)
 
@@ -117,17 +112,23 @@ def read_foot(file: Path) -> FootFile:
             what = f"{1e3 * place.value:g} mm is out of the fulcrum's range"
             raise InputError(file, f"[settings] {setting}", what, f"that is {ends}")
     settings = {setting: place.value for setting, place in described.settings.items()}
-    if described.sole is None:
-        sole = sole_of(keel)
-        law, below = law_of(sole), usual_sole()["below"].value
-        reserve(f"{file}: no [sole]; it has that of {NAME}, stretched to the keel, whose numbers are invented")
-        of_sole = sole_origin(sole, law)
-    else:
-        sole, law, below, of_sole = _sole(file, described.sole, keel)
+    under = _under(file, described, keel)
     places = {f"setting {setting}": number_of(place) for setting, place in described.settings.items()}
-    origin = _origin(described.keel, keel) | places | of_sole
-    record = FootRecord(str(name), below, settings, origin)
-    return FootFile(VariableStiffnessFoot(keel, sole, law, record), described, known)
+    origin = _origin(described.keel, keel) | places | under.origin
+    record = FootRecord(str(name), under.below, settings, origin)
+    return FootFile(VariableStiffnessFoot(keel, under.sole, under.law, record), described, known)
+
+
+def _under(file: Path, described: FootDescription, keel: Keel) -> DescribedSole:
+    """What the keel stands on; the spheres of the shipped foot where the file does not say."""
+    if described.foam is not None:
+        return foam_of(file, described.foam, keel)
+    if described.sole is not None:
+        return spheres_of(file, described.sole, keel)
+    sole = sole_of(keel)
+    law = law_of(sole)
+    reserve(f"{file}: no [sole]; it has that of {NAME}, stretched to the keel, whose numbers are invented")
+    return DescribedSole(sole, law, usual_sole()["below"].value, sole_origin(sole, law))
 
 
 def _keel(file: Path, d: KeelDescription) -> tuple[Keel, bool]:
@@ -236,66 +237,6 @@ def _flat(modulus: float, width: float, thickness: float) -> float:
     return modulus * width * thickness**3 / 12.0
 
 
-def _sole(file: Path, d: SoleDescription, keel: Keel) -> tuple[KeelSole, SoleLaw, float, dict[str, Number]]:
-    """Spheres on the segments above them, their law, the sole's height and where the numbers are from."""
-    table = read_spheres(d.spheres)
-    if table.stiffness is not None or table.damping is not None:
-        what = "has k or b of single spheres; spheres of a zone share their law here"
-        raise InputError(d.spheres, "", what, "take these columns out and write [sole.zones.NAME]")
-    spheres = SphereSet(table.centre, table.radius, table.zone)
-    if set(spheres.zones) != set(d.zones):
-        odd = min(set(spheres.zones) ^ set(d.zones))
-        what = "has spheres and no law" if odd in spheres.zones else "has a law and no sphere"
-        raise InputError(file, f"[sole.zones.{odd}]", what, f"zones of the table are {', '.join(spheres.zones)}")
-    _check_zones(file, d, spheres)
-    tip = float(table.centre[:, 0].max())
-    if not (table.centre[:, 0].min() >= -keel.length and tip <= 2.0 * keel.length):
-        what = f"a sphere is at {1e3 * tip:.4g} mm"
-        raise InputError(d.spheres, "px", what, "x counts along the keel; check its unit")
-    lowest = float((table.radius - table.centre[:, 1]).max())
-    if abs(lowest - d.below.value) > 5e-3:
-        what = f"{1e3 * d.below.value:g} mm, and the lowest sphere reaches {1e3 * lowest:.4g} mm below the keel's axis"
-        raise InputError(file, "[sole] below", what, "these two have to agree: y counts from the axis upwards")
-    usual = usual_sole()
-    shared = {name: getattr(d, name) for name in ("exponent", "full_depth", "threshold_speed")}
-    numbers = {name: usual[name] if each is None else number_of(each) for name, each in shared.items()}
-    by = {kind: np.array([getattr(d.zones[zone], kind).value for zone in spheres.zone]) for kind in BY_ZONE}
-    law = SoleLaw(
-        stiffness=by["stiffness"],
-        damping=by["damping"],
-        exponent=numbers["exponent"].value,
-        full_depth=numbers["full_depth"].value,
-        static=by["static"],
-        kinetic=by["kinetic"],
-        threshold_speed=numbers["threshold_speed"].value,
-    )
-    origin = {f"sole {name}": number for name, number in numbers.items()}
-    origin |= {f"sole {zone}_{kind}": number_of(getattr(d.zones[zone], kind)) for zone in d.zones for kind in BY_ZONE}
-    source = _source(d.source)
-    origin["sole places"] = Number(0.0, source)
-    origin["sole radius"] = Number(float(table.radius[0]), source, "of a sphere")
-    origin["sole below"] = number_of(d.below)
-    sole = KeelSole(spheres, tuple(keel.segment_of(table.centre[:, 0])))
-    return sole, law, d.below.value, origin
-
-
-def _check_zones(file: Path, d: SoleDescription, spheres: SphereSet) -> None:
-    """InputError for friction that grows with sliding; a warning for zones in another order than their names say."""
-    for zone, law in d.zones.items():
-        if law.kinetic.value > law.static.value:
-            what = f"kinetic friction {law.kinetic.value:g} is larger than the static one, {law.static.value:g}"
-            raise InputError(file, f"[sole.zones.{zone}] kinetic", what, "exchange them")
-    zones = np.array(spheres.zone)
-    places = {zone: float(spheres.centre[zones == zone, 0].mean()) for zone in spheres.zones}
-    named = [(k, zone) for k, word in enumerate(ALONG) for zone in places if zone.lower().startswith(word)]
-    for (k, back), (j, front) in pairwise(named):
-        if k < j and places[back] > places[front]:
-            reserve(
-                f"{d.spheres}: zone {back} is at {1e3 * places[back]:.0f} mm, in front of {front} at "
-                f"{1e3 * places[front]:.0f} mm: are the zones in the order of the spheres, and is x forwards?"
-            )
-
-
 def _origin(d: KeelDescription, keel: Keel) -> dict[str, Number]:
     """Where the keel's numbers are from, by their names in `foot_numbers`."""
     found = {f"keel {name}": number_of(getattr(d, name)) for name in NAMED}
@@ -305,12 +246,3 @@ def _origin(d: KeelDescription, keel: Keel) -> dict[str, Number]:
     usual = Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
     found["keel thickness"] = usual if d.thickness is None else number_of(d.thickness)
     return found
-
-
-def number_of(stated: StatedNumber) -> Number:
-    """A number of a file as the tables of numbers have it."""
-    return Number(stated.value, _source(stated.source), stated.note)
-
-
-def _source(text: str) -> Source:
-    return next((source for source in SOURCES if source == text), "option")

@@ -1,16 +1,16 @@
-"""A prosthetic foot as a file: `foot.toml` with every number, its source and note, and `spheres.csv` beside it."""
+"""A prosthetic foot as files: `foot.toml` with every number, its source and note; `spheres.csv` of one on spheres."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, SHARED
+from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, SHARED, Foam
 from geocontact.data.parameter import SOURCES, Number
 
 TOML, SPHERES = "foot.toml", "spheres.csv"
@@ -27,11 +27,13 @@ KEEL = {
     "retardation": "s",
 }
 ZONE = {"stiffness": "N/m", "damping": "N s/m", "static": "-", "kinetic": "-"}
+FOAM = {"below": "m", "breadth": "m", "column": "m", "across": "-"}
+FOAM_ZONE = {"to": "m", "thickness": "m", "modulus": "Pa", "retardation": "s", "static": "-", "kinetic": "-"}
 SHARED_UNITS = {"exponent": "-", "full_depth": "m", "threshold_speed": "m/s"}
 
 
 def write_foot(folder: Path, foot: VariableStiffnessFoot, compressions: Sequence[str] = ()) -> None:
-    """`foot.toml` and `spheres.csv` of a foot, which read back as the same.
+    """`foot.toml` of a foot, and `spheres.csv` of one on spheres, which read back as the same.
 
     `compressions` are lines that follow, as the description of a foot has them.
     """
@@ -39,7 +41,8 @@ def write_foot(folder: Path, foot: VariableStiffnessFoot, compressions: Sequence
     spheres = foot.sole.spheres
     rows = zip(spheres.centre.tolist(), spheres.radius.tolist(), spheres.zone, strict=True)
     table = [",".join([*map(repr, centre), repr(radius), zone]) for centre, radius, zone in rows]  # with every digit
-    (folder / SPHERES).write_text("\n".join([HEAD, *table, ""]), encoding="utf-8", newline="\n")
+    if foot.sole.foam is None:
+        (folder / SPHERES).write_text("\n".join([HEAD, *table, ""]), encoding="utf-8", newline="\n")
     lines = [*_lines(foot), *compressions]
     (folder / TOML).write_text("\n".join(lines).strip() + "\n", encoding="utf-8", newline="\n")
 
@@ -82,6 +85,11 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
     for name, place in foot.record.settings.items():
         known = foot.record.origin.get(f"setting {name}", Number(place, "option"))
         yield f"{key(name)} = {quantity(replace(known, value=place), 'm')}"
+    yield from _spheres(foot, numbers) if foot.sole.foam is None else _foam(foot.sole.foam, numbers)
+
+
+def _spheres(foot: VariableStiffnessFoot, numbers: Mapping[str, Number]) -> Iterator[str]:
+    """Table of a sole of spheres."""
     places = foot.record.origin.get("sole places", Number(0.0, "derived"))
     source = places.source if places.source in SOURCES else "derived"
     yield f'\n[sole]\nspheres = "{SPHERES}"\nsource = "{source}"'
@@ -92,3 +100,14 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
         yield f"\n[sole.zones.{key(zone)}]"
         for kind in BY_ZONE:
             yield f"{kind} = {quantity(numbers[f'sole {zone}_{kind}'], ZONE[kind])}"
+
+
+def _foam(foam: Foam, numbers: Mapping[str, Number]) -> Iterator[str]:
+    """Table of a sole of foam."""
+    yield "\n[foam]"
+    for name, unit in (FOAM | SHARED_UNITS).items():
+        yield f"{name} = {quantity(numbers[f'sole {name}'], unit)}"
+    for zone, _ in foam.ends:
+        yield f"\n[foam.zones.{key(zone)}]"
+        for name, unit in FOAM_ZONE.items():
+            yield f"{name} = {quantity(numbers[f'sole {zone}_{name}'], unit)}"

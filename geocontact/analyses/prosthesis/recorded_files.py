@@ -25,7 +25,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-from geocontact.io.recordings.spheres import read_law
+from geocontact.io.recordings.spheres import LawFile, read_law
 from geocontact.loads.sole_law import changed_law
 from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 
@@ -157,8 +157,9 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
         return foot
     law = read_law(file)
     add_input("`law`", file)
+    _require_same_cut(foot, law, file)
     zones = {zone: of.model_dump(exclude_none=True) for zone, of in law.zone.items()}
-    given = law.model_dump(exclude={"zone", "foot"}, exclude_none=True)
+    given = law.model_dump(exclude={"zone", "foot", "columns"}, exclude_none=True)
     try:
         changed = changed_law(foot.law, foot.sole.spheres.zone, given, zones)
     except InputError as error:
@@ -166,6 +167,19 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
     except ValueError as error:
         raise InputError(file, "force law", str(error), "correct the number") from error
     return replace(foot, law=changed)
+
+
+def _require_same_cut(foot: VariableStiffnessFoot, law: LawFile, file: Path) -> None:
+    """InputError for stiffness or damping of a sphere or column of another sole than the foot's."""
+    zones = [number for each in law.zone.values() for number in (each.k, each.b)]
+    of_one = any(number is not None for number in (law.k, law.b, *zones))
+    spheres = foot.sole.spheres
+    columns = None if foot.sole.foam is None else len(spheres)
+    if not of_one or law.columns == columns:
+        return
+    own = "one sphere" if law.columns is None else f"one of {law.columns} columns of foam"
+    what = f"k and b are of {own}, and the sole of {foot.record.name} has {len(spheres)} {spheres.kinds}"
+    raise InputError(file, "columns", what, "calibrate this foot, or name the one that the law was calibrated on")
 
 
 def offset_of_law(file: Path | None, standing: Path) -> FootOffset:

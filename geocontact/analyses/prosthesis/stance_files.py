@@ -20,6 +20,7 @@ from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.parameter import Number
 from geocontact.io.opensim.external_loads import write_external_loads
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.recordings.spheres import PLAUSIBLE
 from geocontact.io.text.results import CASES, write_table
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
@@ -46,10 +47,11 @@ def write_loads(folder: Path, s: Stance, side: Side) -> None:
 
 
 def write_spheres(folder: Path, s: Stance, side: Side) -> None:
-    """foot.pvd: centres of the spheres, row by row as lines, with the force on each."""
+    """foot.pvd: centres of the spheres, or lower ends of the foam, in lines along the foot, with the force on each."""
     kept = slice(None, None, EVERY)
     centres, force = of_side(s.loads.centre[kept], side), of_side(s.loads.force[kept], side)
-    lines = [tuple(range(start, centres.shape[1], 2)) for start in (0, 1)]
+    beside = s.foot.sole.spheres.centre[:, 2]
+    lines = [tuple(np.flatnonzero(beside == z).tolist()) for z in np.unique(beside)]
     write_line_series(folder, "foot", LineSeries(s.time[kept], centres, lines), {"force of the ground [N]": force})
 
 
@@ -117,10 +119,16 @@ def reaction_table(
 
 
 def write_sole(folder: Path, spheres: SphereSet, law: SoleLaw, numbers: RowNumbers) -> None:
-    """spheres.csv with a zone for each row across the sole, and foot.toml with constants and free numbers."""
+    """spheres.csv with a zone for each row across the sole, and foot.toml with constants and free numbers.
+
+    The base model has spheres alone: a column of foam is a small one with the same lowest point, whose depth differs by
+    the radius times 1 - cos(pitch).
+    """
     rows = rows_of(spheres)
-    place = {f"p{axis} [m]": spheres.centre[:, k] for k, axis in enumerate("xy")}
-    table = pd.DataFrame(place | {"radius [m]": spheres.radius, "zone": rows})
+    radius = np.maximum(spheres.radius, PLAUSIBLE[0])
+    height = spheres.centre[:, 1] - spheres.radius + radius
+    places = {"px [m]": spheres.centre[:, 0], "py [m]": height}
+    table = pd.DataFrame(places | {"radius [m]": radius, "zone": rows})
     write_table(table, folder, "spheres", CASES)
     text = HEAD.format(
         off=numbers.off,

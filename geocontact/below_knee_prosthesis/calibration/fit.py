@@ -52,7 +52,8 @@ class StanceFit:
     vertical, centre
         Agreement of the vertical force over body weight, and of the centre, with the plate's.
     sunk
-        Share of the frames in which a sphere sinks beyond its radius along the recorded poses.
+        Share of the frames in which a sphere sinks beyond its radius, or foam beyond its thickness, along the recorded
+        poses.
     """
 
     predicted: Float[np.ndarray, "t 4"]
@@ -78,7 +79,7 @@ def stance_fit(found: SoleCalibration, whole: WholeCalibration | None = None, pl
         slip,
         agreement(model[:, 1], measured[:, 1], step, 0.0),
         agreement(predicted[:, 3], stance.centre, step, 0.0),
-        float((motion.loads.depth > SHARE_OF_DEPTH * found.foot.sole.spheres.radius).any(axis=1).mean()),
+        float((motion.loads.depth > SHARE_OF_DEPTH * found.foot.sole.spheres.deepest).any(axis=1).mean()),
     )
 
 
@@ -143,7 +144,9 @@ def _doubts_of_stance(
     offset, e, fit = found.offsets[found.residuals.standing[place]], one.stance.errors, one.fit
     doubts = doubts_of_fit(offset.height / e.standing, offset.pitch / e.pitch, residual, fit.vertical.rmsd)
     doubts += [*of_r2("vertical force", fit.vertical.r2), *of_r2("centre of pressure", fit.centre.r2)]
-    doubts += of_range("a sphere sinks beyond its radius, the foot is too low or the sole too soft, for", fit.sunk)
+    spheres = found.residuals.zones.sole.spheres
+    sinks = f"a {spheres.kind} sinks beyond its {spheres.limit}"
+    doubts += of_range(f"{sinks}, the foot is too low or the sole too soft, for", fit.sunk)
     return doubts
 
 

@@ -35,6 +35,7 @@ from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import Aim
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import standing_leg
+from geocontact.below_knee_prosthesis.keel.foam import cut_finer
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.sole import BY_ZONE, KeelSole
@@ -312,6 +313,8 @@ def finer_feet(foot: VariableStiffnessFoot, count: int = len(FINER)) -> tuple[Va
 def _same(foot: VariableStiffnessFoot, usual: VariableStiffnessFoot) -> bool:
     """Whether keel and spheres are those of the shipped foot, whatever its law is."""
     near = np.isclose(foot.keel.bending, usual.keel.bending, rtol=1e-6)
+    if foot.sole.foam is not None:
+        return False
     alike = replace(foot.keel, bending=0.5, torsional=0.5) == replace(usual.keel, bending=0.5, torsional=0.5)
     spheres = foot.sole.spheres, usual.sole.spheres
     shape = spheres[0].zone == spheres[1].zone and np.allclose(spheres[0].centre, spheres[1].centre, atol=1e-9)
@@ -319,9 +322,11 @@ def _same(foot: VariableStiffnessFoot, usual: VariableStiffnessFoot) -> bool:
 
 
 def _split(foot: VariableStiffnessFoot, finer: int) -> VariableStiffnessFoot:
-    """Every sphere as `finer` ones along the foot, spread over half the way to its neighbours in front and behind."""
+    """Every sphere as `finer` ones along the foot, spread over half the way to its neighbours; foam cut finer."""
     if finer == 1:
         return foot
+    if foot.sole.foam is not None:
+        return cut_finer(foot, finer)
     spheres, law = foot.sole.spheres, foot.law
     rows = np.unique(spheres.centre[:, 0])
     if len(rows) < 2:

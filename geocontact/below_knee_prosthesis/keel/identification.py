@@ -24,10 +24,13 @@ from scipy.optimize import least_squares
 from scipy.stats import norm
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, calibrated_on_sole, pressed_sole
+from geocontact.below_knee_prosthesis.keel.foam import foam_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel
+from geocontact.below_knee_prosthesis.keel.sole import KeelSole, zone_number
 from geocontact.identify.identifiability import Identifiability, identifiability
 from geocontact.identify.noise.autocorrelation import PAUSE, autocorrelation_of, sandwich, spread
+from geocontact.loads.sphere_set import SoleLaw
 
 FACTOR = 100.0
 """By which EI may differ from where its search begins, either way."""
@@ -351,6 +354,13 @@ class IdentifiedSole:
     stiffnesses: tuple[float, ...]
 
 
+def _pressed(sole: KeelSole, law: SoleLaw, zone: str) -> tuple[str, str, float]:
+    """Name, unit and value of what is identified of the sole: stiffness of a sphere, or modulus of the foam."""
+    if sole.foam is not None:
+        return f"modulus of the foam, {zone}", "Pa", foam_numbers(sole, law)[zone].modulus
+    return f"stiffness of a sphere, {zone}", "N/m", zone_number(law, "stiffness", sole.spheres.zones[zone])
+
+
 STEP = 1e-4
 """Step of logarithms for derivatives; a fulcrum is moved by the same share of the keel's length."""
 
@@ -391,10 +401,9 @@ def identified_sole(
     bread = spread(slope)
     covariance = bread @ (slope.T * variance) @ slope @ bread
     half = np.sqrt(np.diag(covariance)) * float(norm.ppf(0.5 + 0.5 * level))
-    value = float(law.stiffness[int(np.flatnonzero(of)[0])])
     numbers = (
         _by_logarithm("EI, plate on the sole", "N m^2", float(keel.bending), float(half[0])),
-        _by_logarithm(f"stiffness of a sphere, {zone}", "N/m", value, float(half[1])),
+        _by_logarithm(*_pressed(foot.sole, law, zone), float(half[1])),
     )
     keel = replace(keel, bending=float(keel.bending), torsional=float(keel.torsional))
     return IdentifiedSole(replace(foot, keel=keel, law=law), zone, numbers, tuple(map(float, np.exp(here))))

@@ -1,4 +1,4 @@
-"""The foam under the keel as spheres, each fixed to the segment above it.
+"""The foam under the keel as spheres, each fixed to the segment above it; as columns of foam in `foam`.
 
 24 spheres in five zones, three of them at the heel, as in the study of the variable-stiffness foot, which tells neither
 places nor radii nor any number of the law: those are invented, but for the stiffness of the forefoot.
@@ -7,6 +7,7 @@ places nor radii nor any number of the law: those are invented, but for the stif
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import floor
 
 import numpy as np
 from jaxtyping import Bool
@@ -48,8 +49,49 @@ ROWS: tuple[tuple[str, float, Source, str], ...] = (
 
 
 @dataclass(frozen=True)
+class Foam:
+    """How the foam under a keel is cut into columns.
+
+    Parameters
+    ----------
+    breadth
+        Of the sole [m].
+    column
+        Breadth of a column along the foot [m], nearly: every zone has a whole number of columns.
+    across
+        Columns side by side.
+    ends
+        Where each zone ends along the keel [m], by name from the heel; it begins where the one before ends.
+    """
+
+    breadth: float
+    column: float
+    across: int
+    ends: tuple[tuple[str, float], ...]
+
+    @property
+    def cuts(self) -> dict[str, tuple[float, float, int]]:
+        """From, to [m] and columns along the foot of each zone."""
+        starts = (0.0, *(end for _, end in self.ends))
+        return {
+            zone: (start, end, max(floor((end - start) / self.column + 0.5 + WHOLE), 1))
+            for (zone, end), start in zip(self.ends, starts, strict=False)
+        }
+
+    @property
+    def area(self) -> dict[str, float]:
+        """Area of a column of each zone [m²]."""
+        strip = self.breadth / self.across
+        return {zone: strip * (stop - start) / count for zone, (start, stop, count) in self.cuts.items()}
+
+
+WHOLE = 1e-9
+"""Share of a column that is rounding."""
+
+
+@dataclass(frozen=True)
 class KeelSole:
-    """Spheres under a keel.
+    """Spheres, or columns of foam, under a keel.
 
     Parameters
     ----------
@@ -57,22 +99,25 @@ class KeelSole:
         In the frame K of the keel while it is straight.
     segment
         That carries each: 0 behind the first joint, then 1 to n.
+    foam
+        Whose columns these are; None for spheres.
     """
 
     spheres: SphereSet
     segment: tuple[int, ...]
+    foam: Foam | None = None
 
     def on(self, segment: int, keel: Keel) -> SphereSet | None:
         """Spheres of one segment in its own frame, whose origin is its joint; None where it carries none.
 
         Segment 0 has the frame K.
         """
-        chosen = [k for k, each in enumerate(self.segment) if each == segment]
-        if not chosen:
+        chosen = np.array(self.segment) == segment
+        if not chosen.any():
             return None
+        own = self.spheres.chosen(chosen)
         origin = np.array([keel.places[segment - 1] if segment else 0.0, 0.0, 0.0])
-        zone = tuple(self.spheres.zone[k] for k in chosen)
-        return SphereSet(self.spheres.centre[chosen] - origin, self.spheres.radius[chosen], zone)
+        return replace(own, centre=own.centre - origin)
 
 
 def numbers() -> dict[str, Number]:

@@ -8,13 +8,24 @@ It does not say where medium is, nor any number of the keel's section or of the 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, CompressionFit, calibrated_on_sole, fitted
+from geocontact.below_knee_prosthesis.keel.foam import FoamNumbers, foam_law, foam_numbers, foam_sole
 from geocontact.below_knee_prosthesis.keel.foot import FootRecord, VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.keel import Keel, torsional_stiffness
 from geocontact.below_knee_prosthesis.keel.sections import Support
-from geocontact.below_knee_prosthesis.keel.sole import COLUMNS, KeelSole, law_of, sole_of, sole_origin
+from geocontact.below_knee_prosthesis.keel.sole import (
+    COLUMNS,
+    SHARED,
+    ZONES,
+    Foam,
+    KeelSole,
+    law_of,
+    sole_of,
+    sole_origin,
+)
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.data.parameter import Number, Source
 from geocontact.loads.sphere_set import SoleLaw
@@ -119,3 +130,48 @@ def vsf_foot(
     measured = [Compressed(fulcrum_of(name, support), stiffness) for name, stiffness in SETTINGS.items()]
     bent, law = calibrated_on_sole(keel, sole, law_of(sole), measured)
     return VariableStiffnessFoot(bent, sole, law, vsf_record(bent, sole, law))
+
+
+FOAM = 0.020
+"""Thickness of the foam that stands in for the spheres [m], invented."""
+
+
+@lru_cache(maxsize=8)
+def vsf_on_foam(column: float = 4e-3, across: int = COLUMNS) -> VariableStiffnessFoot:
+    """The same foot on columns of foam, each zone as stiff and damped as its spheres, fitted to the same compressions.
+
+    `column` is the breadth of a column along the foot [m], `across` how many lie side by side.
+    """
+    keel = vsf_keel()
+    usual, value = sole_of(keel), {name: number.value for name, number in sole_numbers().items()}
+    given, zones = law_of(usual), usual.spheres.zones
+    foam = Foam(value["breadth"], column, across, tuple((zone, stop) for zone, (_, stop, _) in ZONES.items()))
+    own = {}
+    for zone, of in zones.items():
+        start, stop, _ = ZONES[zone]
+        stiff, damped = float(given.stiffness[of].sum()), float(given.damping[of].sum())
+        modulus = stiff * FOAM / (value["breadth"] * (stop - start))
+        own[zone] = FoamNumbers(FOAM, modulus, damped / stiff, value["static"], value["kinetic"])
+    sole = foam_sole(keel, foam, value["below"], dict.fromkeys(zones, FOAM))
+    law = foam_law(sole, own, *(value[name] for name in SHARED))
+    measured = [Compressed(fulcrum_of(name), stiffness) for name, stiffness in SETTINGS.items()]
+    bent, law = calibrated_on_sole(keel, sole, law, measured)
+    return VariableStiffnessFoot(bent, sole, law, replace(_foam_record(bent, sole, law), name=f"{NAME}, on foam"))
+
+
+def _foam_record(keel: Keel, sole: KeelSole, law: SoleLaw) -> FootRecord:
+    """Where its numbers are from: all of the foam are invented but what the compressions say."""
+    record, zones = vsf_record(keel, sole_of(keel), law_of(sole_of(keel))), foam_numbers(sole, law)
+    origin = {name: number for name, number in record.origin.items() if not name.startswith("sole ")}
+    known, foam = sole_numbers(), sole.foam
+    origin |= {f"sole {name}": known[name] for name in ("below", "breadth", *SHARED)}
+    origin["sole column"] = Number(foam.column if foam else 0.0, "invented", "how finely the foam is cut")
+    origin["sole across"] = Number(float(foam.across) if foam else 0.0, "invented", "how finely the foam is cut")
+    for zone, own in zones.items():
+        origin[f"sole {zone}_to"] = Number(ZONES[zone][1], "invented")
+        for name, number in vars(own).items():
+            origin[f"sole {zone}_{name}"] = Number(number, "invented")
+        origin[f"sole {zone}_modulus"] = Number(own.modulus, "invented", "as stiff as the spheres of the zone")
+    front = f"sole {sole.spheres.zone[-1]}_modulus"
+    origin[front] = replace(origin[front], source="derived", note=f"with EI {COMPRESSED}")
+    return replace(record, origin=origin)

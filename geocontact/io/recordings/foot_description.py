@@ -27,7 +27,8 @@ from.
     setting = "soft"
     curve = "soft.csv"
 
-Places along the keel count from its posterior end. Files are looked for beside the description.
+In place of [sole], [foam] is a sole of foam in zones. Places along the keel count from its posterior end. Files are
+looked for beside the description.
 """
 
 from __future__ import annotations
@@ -83,6 +84,13 @@ SOLE_FRICTION = Plausible("a coefficient of friction of a sole", PLAIN, (0.0, 10
 EXPONENT = Plausible("the exponent of the force of a sole over its depth", PLAIN, (0.3, 5.0), (0.8, 2.5))
 ABOVE_GROUND = Plausible("a depth of a sole", mm, (1e-4, 500.0), (0.05, 20.0))
 CREEP = Plausible("the speed below which a sole sticks", M_PER_S, (1e-6, 10.0), (1e-4, 0.2))
+FOAM = Plausible("the thickness of foam under a keel", mm, (0.5, 200.0), (3.0, 60.0))
+FOAM_MODULUS = Plausible("the modulus of foam", MPa, (1e-3, 1e3), (0.02, 20.0), why="soft open cells to dense EVA")
+FOAM_RETARDATION = Plausible(
+    "the retardation of foam", S, (0.0, 10.0), (1e-4, 0.2), or_zero=True, why="a loss factor of 0.001 to 1 at 1 Hz"
+)
+COLUMN = Plausible("the breadth of a column of foam", mm, (0.2, 50.0), (0.5, 10.0))
+ACROSS = Plausible("columns of foam side by side", PLAIN, (1.0, 40.0))
 GAUGE = Plausible("the standard deviation of a measured deflection", mm, (0.0, 500.0), (1e-3, 1.0), or_zero=True)
 PRESSED = Plausible("how far a sole is compressed", mm, (0.0, 500.0), (0.5, 30.0))
 TILTED = Plausible("the tilt of a plate against a sole", deg, (-90.0, 90.0), (0.0, 45.0))
@@ -221,6 +229,62 @@ class SoleDescription(Document):
     zones: dict[str, SoleZone]
 
 
+class FoamZone(Document):
+    """Foam of a zone.
+
+    Parameters
+    ----------
+    to
+        Where it ends; it begins where the one before ends.
+    thickness
+        Of the foam.
+    modulus
+        Pressure over strain, or at a strain of 1.
+    retardation
+        Damping over stiffness.
+    static, kinetic
+        Coefficients of friction.
+    """
+
+    to: Length
+    thickness: Annotated[StatedNumber, _quantity(FOAM)]
+    modulus: Annotated[StatedNumber, _quantity(FOAM_MODULUS)]
+    retardation: Annotated[StatedNumber, _quantity(FOAM_RETARDATION)]
+    static: Friction
+    kinetic: Friction
+
+
+class FoamDescription(Document):
+    """A sole of foam in place of spheres: flat columns, none of which knows its neighbours.
+
+    Parameters
+    ----------
+    below
+        From the keel's axis to the flat sole.
+    breadth
+        Of the sole.
+    column
+        Breadth of a column along it, nearly; 4 mm by default.
+    across
+        Columns side by side; 2 by default.
+    exponent
+        Of pressure over strain; 1 by default.
+    full_depth, threshold_speed
+        As those of spheres.
+    zones
+        Foam of each zone by its name, from the heel.
+    """
+
+    below: Length
+    breadth: Width
+    column: Annotated[StatedNumber, _quantity(COLUMN)] | None = None
+    across: Annotated[StatedNumber, FootQuantity(ACROSS, bare=True, sources=SOURCES)] | None = None
+    exponent: Annotated[StatedNumber, _quantity(EXPONENT)] | None = None
+    full_depth: Annotated[StatedNumber, _quantity(ABOVE_GROUND)] | None = None
+    threshold_speed: Annotated[StatedNumber, _quantity(CREEP)] | None = None
+    zones: dict[str, FoamZone]
+
+
 class Compression(Document):
     """A static compression of the forefoot.
 
@@ -294,6 +358,8 @@ class FootDescription(Document):
         Place of the fulcrum of each setting, by its name.
     sole
         Spheres and their law; by default those of the variable-stiffness foot, stretched to the keel's length.
+    foam
+        Foam in place of spheres.
     bench
         How the compressions were done.
     compressions
@@ -304,8 +370,15 @@ class FootDescription(Document):
     keel: KeelDescription
     settings: dict[str, Length] = Field(default_factory=dict)
     sole: SoleDescription | None = None
+    foam: FoamDescription | None = None
     bench: Bench = Field(default_factory=Bench)
     compressions: Annotated[tuple[Compression, ...], Listed("compression_{number}", doubled), Rows] = ()
+
+    @model_validator(mode="after")
+    def _require_one_sole(self) -> FootDescription:
+        if self.sole is not None and self.foam is not None:
+            raise refusal("has [sole] and [foam]", "keep spheres or foam", at=("foam",))
+        return self
 
 
 def read_foot_description(path: Path) -> FootDescription:

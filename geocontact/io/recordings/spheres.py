@@ -99,6 +99,7 @@ class LawFile(BaseModel):
     """Numbers of a force law, each optional: for all spheres at the top, for one zone in `[zone.NAME]`.
 
     `[foot]` is no part of the law, but was found with it; a file without it has a foot as its standing trial has it.
+    `columns` says that k and b are of one of so many columns of foam; without it they are of one sphere.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
@@ -109,6 +110,7 @@ class LawFile(BaseModel):
     mu_s: float | None = None
     mu_k: float | None = None
     v_th: float | None = None
+    columns: int | None = None
     zone: dict[str, ZoneLaw] = {}
     foot: FootLaw | None = None
 

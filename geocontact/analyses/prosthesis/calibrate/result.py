@@ -48,6 +48,7 @@ from geocontact.below_knee_prosthesis.calibration.known_numbers import Verdict
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.whole_calibration import WholeCalibration
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import PRIOR
+from geocontact.below_knee_prosthesis.keel.foam import foam_numbers
 from geocontact.below_knee_prosthesis.leg import FootOffset
 from geocontact.identify.identifiability import Identifiability
 from geocontact.identify.signals.agreement import Agreement
@@ -81,11 +82,16 @@ def law_toml(found: SoleCalibration | WholeCalibration, standing: str) -> str:
     lines = [HEAD, f"n = {law.exponent!r}", f"delta_full = {law.full_depth!r}", f"v_th = {law.threshold_speed!r}"]
     verdicts = {each.name: each.verdict for each in found.knowledge.numbers}
     count = len(law.stiffness)
-    for zone, chosen in found.residuals.zones.sole.spheres.zones.items():
+    sole = found.residuals.zones.sole
+    foam = {} if sole.foam is None else foam_numbers(sole, law)
+    if foam:
+        lines.append(f"columns = {count}  # of foam; k and b are of one of them, and hold for no other cut")
+    for zone, chosen in sole.spheres.zones.items():
         k = int(np.flatnonzero(chosen)[0])
         static, kinetic = (float(np.broadcast_to(each, count)[k]) for each in (law.static, law.kinetic))
         lines += ["", f"[zone.{zone}]"]
-        lines.append(f"k = {float(law.stiffness[k])!r}  # {verdicts[f'stiffness.{zone}']}")
+        modulus = f"; E {1e-6 * foam[zone].modulus:.4g} MPa" if foam else ""
+        lines.append(f"k = {float(law.stiffness[k])!r}  # {verdicts[f'stiffness.{zone}']}{modulus}")
         lines.append(f"b = {float(law.damping[k])!r}  # {verdicts[f'damping.{zone}']}")
         lines.append(f"mu_s = {static!r}  # its ratio to mu_k is kept")
         lines.append(f"mu_k = {kinetic!r}  # {verdicts[f'friction.{zone}']}")

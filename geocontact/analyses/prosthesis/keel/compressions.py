@@ -11,9 +11,10 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_apart
-from geocontact.analyses.prosthesis.foot_file import SHIPPED, FootFile, keep_inputs, number_of, read_foot
+from geocontact.analyses.prosthesis.foot_file import SHIPPED, FootFile, keep_inputs, read_foot
 from geocontact.analyses.prosthesis.foot_writer import quantity
 from geocontact.analyses.prosthesis.keel.options import ProsthesisKeelOptions
+from geocontact.analyses.prosthesis.sole_file import number_of
 from geocontact.below_knee_prosthesis.keel.identification import (
     MeasuredCompression,
     compressed_curve,

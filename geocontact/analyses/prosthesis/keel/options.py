@@ -22,7 +22,7 @@ class ProsthesisKeelOptions(Options):
 
     writes: ClassVar[str] = """
     Writes keel.csv (numbers with intervals), compressions.csv, stiffness.csv (over the fulcrum), curves.csv where
-    curves were given, foot.toml and spheres.csv (the identified foot, which all commands take), a figure,
+    curves were given, foot.toml and spheres.csv (the identified foot, for all commands; of foam foot.toml), a figure,
     report.html and run.json into OUT.
     """
 

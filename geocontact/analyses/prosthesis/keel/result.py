@@ -29,6 +29,7 @@ from geocontact.analyses.prosthesis.keel.compressions import CompressedFoot, lin
 from geocontact.analyses.prosthesis.keel.options import ProsthesisKeelOptions
 from geocontact.analyses.prosthesis.keel.show import keel_curves, keel_page
 from geocontact.below_knee_prosthesis.keel.compression import pressed_sole
+from geocontact.below_knee_prosthesis.keel.foam import foam_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.identification import (
     SERIES,
@@ -63,7 +64,7 @@ class ProsthesisKeelResult(Result):
     beam
         By beam theory.
     sole
-        On the spheres of its sole.
+        On its sole.
     """
 
     options: ProsthesisKeelOptions
@@ -175,7 +176,7 @@ def run(given: CompressedFoot, o: ProsthesisKeelOptions) -> ProsthesisKeelResult
     try:
         sole = identified_sole(foot, beam, given.measured, tilt=given.tilt, travel=given.travel)
     except ArithmeticError as error:
-        raise InputError(given.file, "[sole]", str(error), "check [bench] tilt and travel, and the spheres") from error
+        raise InputError(given.file, "[sole]", str(error), "check [bench] tilt and travel, and the sole") from error
     sole = replaced_settings(given, beam, sole)
     _say(beam, sole, given)
     if beam.freedom == 0:
@@ -195,7 +196,12 @@ def replaced_settings(given: CompressedFoot, beam: IdentifiedKeel, sole: Identif
     ei, pressed = sole.numbers
     origin = dict(record.origin)
     origin["keel bending"] = Number(ei.value, "derived", f"EI, {note_of}")
-    origin[f"sole {sole.zone}_stiffness"] = Number(pressed.value, "derived", f"of a sphere, {note_of}")
+    if sole.foot.sole.foam is None:
+        origin[f"sole {sole.zone}_stiffness"] = Number(pressed.value, "derived", f"of a sphere, {note_of}")
+    else:
+        own = foam_numbers(sole.foot.sole, sole.foot.law)[sole.zone]
+        origin[f"sole {sole.zone}_modulus"] = Number(pressed.value, "derived", f"of the foam, {note_of}")
+        origin[f"sole {sole.zone}_retardation"] = Number(own.retardation, "derived", "damping kept beside the modulus")
     settings = dict(record.settings)
     for one, fulcrum in zip(given.measured, beam.fulcrums, strict=True):
         setting = given.settings[one.name]
@@ -247,16 +253,22 @@ def _say(beam: IdentifiedKeel, sole: IdentifiedSole, given: CompressedFoot) -> N
     stiffness = np.array([one.slope()[0] for one in given.measured])
     worst = float(np.abs(np.array(sole.stiffnesses) / stiffness - 1.0).max())
     say(
-        f"EI {_with_interval(bent)} and {rounded(PER_MM * pressed.value, 3)} N/mm a sphere of {sole.zone} with the "
-        f"plate on the sole: compressions are met to {worst:.1%}"
+        f"EI {_with_interval(bent)} and {_pressed(sole, pressed)} with the plate on the sole: compressions are met to "
+        f"{worst:.1%}"
     )
     for one in others:
         if one.unit == "m":
             say(f"{one.name} at {_with_interval(one)}")
 
 
-PER_MM = 1e-3
-SHOWN = {"N m^2": ("N m²", 1.0, 3), "N/m": ("N/mm", PER_MM, 3), "m": ("mm", 1e3, 4)}
+def _pressed(sole: IdentifiedSole, number: IdentifiedNumber) -> str:
+    """What was identified of the foremost zone, in words."""
+    unit, factor, digits = SHOWN[number.unit]
+    of = "a sphere of" if sole.foot.sole.foam is None else "in the foam of"
+    return f"{rounded(factor * number.value, digits)} {unit} {of} {sole.zone}"
+
+
+SHOWN = {"N m^2": ("N m²", 1.0, 3), "N/m": ("N/mm", 1e-3, 3), "m": ("mm", 1e3, 4), "Pa": ("MPa", 1e-6, 3)}
 """Unit, factor and digits in which numbers are said."""
 
 

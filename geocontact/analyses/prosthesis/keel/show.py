@@ -22,7 +22,7 @@ BEAM = (
     "move at the fulcrum; a spring in series stands for all that gives besides."
 )
 SOLE = (
-    "On the sole: a tilted plate compresses the spheres under the keel; EI and the stiffness of the foremost zone are "
+    "On the sole: a tilted plate compresses it under the keel; EI and the stiffness of the foremost zone are "
     "fitted to the same compressions. These two are the numbers of the written foot."
 )
 INTERVALS = (

@@ -242,9 +242,11 @@ class ProsthesisScaleResult(Result):
         super().write_files(folder)
 
     def _balls(self) -> list[ContactBall]:
-        """Spheres of both soles on the bodies that carry them."""
+        """Spheres of both soles on the bodies that carry them; OpenSim has none for foam."""
         side, found = self.options.side, list[ContactBall]()
         for body, spheres in sole_spheres(self.amputee, side):
+            if spheres.thickness is not None:
+                continue
             for centre, radius, zone in zip(spheres.centre, spheres.radius, spheres.zone, strict=True):
                 found.append(ContactBall(f"{zone}_{len(found) + 1}", body, of_side(centre, side), float(radius)))
         return found
@@ -268,6 +270,8 @@ def run(stood: Stood, o: ProsthesisScaleOptions) -> ProsthesisScaleResult:
     numbers = made.numbers()
     for line in doubts_of_legs(made, stood.joints, o.height, stood.seen.source):
         reserve(line)
+    if stood.foot.sole.foam is not None:
+        reserve(f"{FREE} has no contact under the prosthetic foot: OpenSim has spheres, and its sole is of foam")
     invented = sum(number.source == "invented" for number in numbers.values())
     reserve(f"{invented} of {len(numbers)} numbers of the segments are invented, see numbers.csv")
     functional = [joint.how == "functional" for joint in joints]

@@ -50,12 +50,12 @@ CALIBRATED = (
     "offset of the foot from its standing trial, are from the law's file."
 )
 OWN_FOOT = (
-    "The foot is a keel on hinges on spheres, as its file describes it; numbers.csv says where each number is from. "
+    "The foot is a keel on hinges on {kinds}, as its file describes it; numbers.csv says where each number is from. "
     "Nothing was fitted to this person."
 )
 OWN_CALIBRATED = (
-    "The foot is a keel on hinges on spheres, as its file describes it; the forces of the spheres, and the offset of "
-    "the foot from its standing trial, are from the law's file."
+    "The foot is a keel on hinges on {kinds}, as its file describes it; their forces, and the offset of the foot from "
+    "its standing trial, are from the law's file."
 )
 TWICE = (
     "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
@@ -88,7 +88,9 @@ def stance_page(
         frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
-        Words("What the numbers do not contain", [ALONE, *_sole_and_socket(o), NOT_A_DEVICE]),
+        Words(
+            "What the numbers do not contain", [ALONE, *_sole_and_socket(o, s.foot.sole.spheres.kinds), NOT_A_DEVICE]
+        ),
     ]
     return Page(
         title=f"Prosthetic stance along {o.markers.name}",
@@ -114,9 +116,9 @@ def small_forces(errors: pd.DataFrame | None) -> list[Words]:
     return [Words("Sideways force", [line for line in said if line])] if any(said) else []
 
 
-def _sole_and_socket(o: ProsthesisSimulateOptions) -> list[str]:
+def _sole_and_socket(o: ProsthesisSimulateOptions, kinds: str) -> list[str]:
     usual, calibrated = (SOLE, CALIBRATED) if o.foot is None else (OWN_FOOT, OWN_CALIBRATED)
-    sole = usual if o.law is None else calibrated
+    sole = (usual if o.law is None else calibrated).format(kinds=kinds)
     return [sole, TWICE if o.socket_turns == 0 else IN_TURNS]
 
 
