@@ -44,7 +44,7 @@ def groove(turn: float) -> np.ndarray:
 
 
 def settled(femoral: tuple, button: tuple, turn: float, start: float = HEIGHT + 8.0) -> float:
-    """Distance of P's origin from the groove's bottom at `turn` [mm]; the deepest vertex of either body lies DEPTH inside.
+    """Distance of P's origin from the groove's bottom at `turn` [mm]; the deepest vertex lies DEPTH inside.
 
     As in `gait.settled_height`: moving by the distance itself never oversteps, and after the first query only vertices
     within 1 mm of the smallest distance are asked again.

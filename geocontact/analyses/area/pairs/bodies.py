@@ -61,6 +61,11 @@ class Pairs:
     motions: Mapping[str, Motion | None]
     time: Float[np.ndarray, " t"]
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the pairs."""
+        return tuple(pair.name for pair in self.pairs)
+
     def poses(self, body: str) -> RigidTransform:
         """Poses of a body in the common frame, one for each time."""
         motion = self.motions[body]

@@ -27,6 +27,7 @@ from geocontact.analyses.frame.pages import Thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.evolution import MM, MM2
 from geocontact.geometry.contact_area.warm_up import warm_up
+from geocontact.io.text.tables import listed
 from geocontact.view.curves.declared import CurveSheet
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class PairsResult(Result):
     @property
     def title(self) -> str:
         """The pairs."""
-        return ", ".join(f"{pair.moving} on {pair.fixed}" for pair in self.pairs.pairs)
+        return f"Contact of {listed(self.pairs.names)}"
 
     @property
     def time(self) -> Float[np.ndarray, " t"]:
@@ -137,7 +138,7 @@ def run(pairs: Pairs, o: PairsOptions) -> PairsResult:
 
 def _say_total(pairs: Pairs, motions: tuple[MotionResult, ...]) -> None:
     e, course = motions[0].evolution, pairs.pairs[0].motion.course
-    summary: dict[str, object] = {"pairs": [pair.name for pair in pairs.pairs]}
+    summary: dict[str, object] = {"pairs": list(pairs.names)}
     for k, threshold in enumerate(e.thresholds):
         total = total_area(motions)[:, k] * MM2
         most = int(np.argmax(total))

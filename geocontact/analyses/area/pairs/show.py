@@ -37,7 +37,7 @@ def pair_curves(pairs: Pairs, motions: Sequence[MotionResult]) -> CurveSheet:
     ]
     panels = [
         Curves(f"Contact area on the fixed body, within {in_mm(e, k)}", "mm²", areas),
-        Curves("Smallest distance (negative: overlap)", "mm", distances),
+        Curves("Smallest distance of the whole bodies (negative: overlap)", "mm", distances),
     ]
     if forces:
         panels.append(Curves("Contact force", "N", forces))
