@@ -48,7 +48,7 @@ def knee(folder: Path, more: str = "") -> Path:
 def run(file: Path, **options: Any) -> PairsResult:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InputWarning)
-        return gc.area_pairs(file, **{"threshold": (1e-3, 4e-3), "workers": 1, **options})
+        return gc.area_pairs(file, **{"threshold": (1e-3, 4e-3), "workers": 1, "rule": "clip", **options})
 
 
 def same(one: pd.DataFrame, other: pd.DataFrame) -> None:
@@ -62,7 +62,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> PairsResult:
 
 def test_each_pair_is_its_single_run_to_the_last_digit(found: PairsResult, tmp_path: Path) -> None:
     femur, patella = few(tmp_path, "gait.csv"), few(tmp_path, "gait_patella.csv")
-    given: dict[str, Any] = {"threshold": (1e-3, 4e-3), "workers": 1}
+    given: dict[str, Any] = {"threshold": (1e-3, 4e-3), "workers": 1, "rule": "clip"}
     medial = area(FEMUR, INSERT, femur, region="z < 0", **given).table()
     lateral = area(FEMUR, INSERT, femur, region="z > 0", **given).table()
     behind = area(PATELLA, FEMUR, patella, motion_fixed=str(femur), **given).table()
@@ -88,6 +88,15 @@ def turned(folder: Path, name: str, place: np.ndarray, turn: Rotation) -> Path:
     return written(folder / name, "\n".join([head, *(", ".join(map(repr, [t, *cells])) for t in (0.0, 1.0))]) + "\n")
 
 
+def facets_within(vertices: np.ndarray, faces: np.ndarray, radius: float) -> float:
+    """How far facets lie inside the sphere of this radius that their corners are on."""
+    corners = vertices[faces]
+    on = np.abs(np.linalg.norm(corners, axis=2) - radius).max(axis=1) < 1e-6
+    normal = np.cross(corners[on, 1] - corners[on, 0], corners[on, 2] - corners[on, 0])
+    height = np.abs(np.einsum("ij,ij->i", normal, corners[on, 0])) / np.linalg.norm(normal, axis=1)
+    return float(radius - height.min())
+
+
 def solid(folder: Path, name: str, body: tuple[np.ndarray, np.ndarray]) -> str:
     file = folder / f"{name}.stl"
     file.write_bytes(stl_bytes(*body, name))
@@ -99,7 +108,7 @@ def test_a_head_in_a_cup_and_a_ball_on_the_head_are_the_closed_forms(tmp_path: P
     away, gap, apart = np.array([0.6, -0.8, 0.0]), 0.3, 0.5
     head = turned(tmp_path, "head.csv", (24.0 - 18.0 - gap) * away, Rotation.from_rotvec([0.2, 0.1, -0.3]))
     ball = turned(tmp_path, "ball.csv", (24.0 - 18.0 - gap) * away - (18.0 + 10.0 + apart) * away, Rotation.identity())
-    bodies = {"cup": cup(24.0, 5.0, 40), "head": sphere(18.0, 64), "ball": sphere(10.0, 40)}
+    bodies = {"cup": cup(24.0, 5.0, 28), "head": sphere(18.0, 24), "ball": sphere(10.0, 16)}
     meshes = {name: solid(tmp_path, name, body) for name, body in bodies.items()}
     text = f"""unit = "mm"
 [[bodies]]
@@ -122,11 +131,16 @@ moving = "ball"
 fixed = "head"
 """
     result = run(described(tmp_path, text), threshold=(1e-3, 2e-3))
+    radii = {"cup": 24.0, "head": 18.0, "ball": 10.0}
+    deep = {name: facets_within(*bodies[name], radius) for name, radius in radii.items()}
     for k, threshold in enumerate((1.0, 2.0)):
-        on_cup = sphere_cup_on_cup(18.0, 24.0, 6.0 - gap, threshold)
-        on_head = sphere_sphere_on_first(18.0, 10.0, apart, threshold)
-        np.testing.assert_allclose(1e6 * result.areas["head_cup"][:, k], on_cup, rtol=5e-3)
-        np.testing.assert_allclose(1e6 * result.areas["above"][:, k], on_head, rtol=5e-3)
+        for pair, off, smooth in (
+            ("head_cup", deep["cup"] + deep["head"], lambda t: sphere_cup_on_cup(18.0, 24.0, 6.0 - gap, t)),
+            ("above", deep["head"] + deep["ball"], lambda t: sphere_sphere_on_first(18.0, 10.0, apart, t)),
+        ):
+            least, most = 0.998 * smooth(threshold - off), smooth(threshold + off)  # facets also shrink the surface
+            assert most < 1.1 * least
+            assert least < 1e6 * result.areas[pair][0, k] < most, (pair, threshold)
     np.testing.assert_allclose(result.table()["min_distance [mm]"], gap, atol=0.02)
     assert set(result.table()["nearest"]) == {"head_cup"}
 
@@ -158,7 +172,7 @@ def balls(folder: Path, text: str = BALLS) -> Path:
 def test_loads_are_those_of_the_pair_in_the_common_frame(tmp_path: Path) -> None:
     """By hand from the pair's own table: R F, R M + t x R F; the ball bears the opposite."""
     result = run(balls(tmp_path))
-    layer: dict[str, Any] = {"modulus": 500e6, "poisson": 0.46, "piece": 2e-3, "workers": 1}
+    layer: dict[str, Any] = {"modulus": 500e6, "poisson": 0.46, "piece": 2e-3, "workers": 1, "rule": "clip"}
     alone = pressed(SPHERE, PLATE, tmp_path / "ball.csv", motion_fixed=str(tmp_path / "plate.csv"), **layer)
     same(result.table("ball_plate/pressure"), alone.table("pressure"))
     own = alone.table("pressure")
@@ -203,7 +217,13 @@ moving = "femur"
 fixed = "insert"
 """
     ours = run(described(tmp_path, text)).table("femur_insert/area")
-    given: dict[str, Any] = {"osim": MESHES / "knee.osim", "joint": "knee_r", "moving_body": "parent", "workers": 1}
+    given: dict[str, Any] = {
+        "osim": MESHES / "knee.osim",
+        "joint": "knee_r",
+        "moving_body": "parent",
+        "workers": 1,
+        "rule": "clip",
+    }
     theirs = area(FEMUR, INSERT, coordinates, threshold=(1e-3, 4e-3), **given).table()
     pd.testing.assert_frame_equal(ours, theirs, check_exact=False, rtol=1e-6, atol=1e-6)
     unknown = described(tmp_path, text.replace('segment = "tibial_insert"', 'segment = "shank"'))
