@@ -64,13 +64,13 @@ class DescribedBody(Document):
     mesh
         Its surface: .stl, .ply, .obj or .vtp.
     motion
-        Its poses over time as for `area`: .csv, or rows of 16 or 12 numbers; at rest without.
+        Its poses over time (.csv, or rows of numbers); at rest without.
     segment
-        In place of a motion: the body of `model` that it is fixed to.
+        In place of a motion: the body of `model` it is fixed to.
     place
-        Where the mesh sits in its body's frame: a file with a 4x4 matrix, or model.osim:body.
+        Place of the mesh in its body: file with a 4x4 matrix, or model.osim:body.
     closed
-        Treat the surface as closed although its edges do not show it.
+        Treat it as closed.
     """
 
     name: FileName
@@ -97,9 +97,9 @@ class DescribedLayer(Document):
     poisson
         Poisson's ratio.
     thickness
-        Its thickness; by default measured along rays.
+        Thickness; along rays by default.
     piece
-        Longest edge of the pieces that pressure is summed over; 0.5 mm by default.
+        Longest edge of its pieces; 0.5 mm by default.
     """
 
     modulus: Annotated[float, WithUnit(YOUNG)]
@@ -114,15 +114,15 @@ class DescribedPair(Document):
     Parameters
     ----------
     name
-        Its own, that of its folder among the results.
+        That of its folder.
     moving
-        Body whose pose is taken in the frame of the other one.
+        Body that moves in the other one's frame.
     fixed
-        Body in whose frame results are given, and on which areas are counted.
+        Body in whose frame results are.
     region, region_moving
-        Faces of FIXED and of MOVING that count, as for `area`.
+        Faces that count, as for `area`.
     layer
-        Elastic layer on FIXED, for pressures and loads.
+        Elastic layer on FIXED.
     """
 
     name: FileName
@@ -151,13 +151,13 @@ class PairsDescription(Document):
     pairs
         All pairs.
     model
-        OpenSim model whose segments bodies are fixed to.
+        OpenSim model.
     coordinates
-        Coordinates of that model over time.
+        Its coordinates over time.
     angles
-        Unit of its angles where the file does not say it.
+        Unit of angles where a file does not say it.
     order
-        Order of intrinsic rotations, where files of poses hold Euler angles.
+        Order of intrinsic rotations of Euler angles.
     rate
         Frames per second of poses without times.
     """
