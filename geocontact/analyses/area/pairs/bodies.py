@@ -26,7 +26,7 @@ FRAME = "the common frame"
 
 
 @dataclass(frozen=True, eq=False)
-class MovedPair:
+class TouchingPair:
     """Two of the bodies.
 
     Parameters
@@ -54,10 +54,10 @@ class MovedPair:
 
 
 @dataclass(frozen=True, eq=False)
-class MovedPairs:
+class TouchingBodies:
     """All pairs, and the poses of all bodies in the common frame; None for a body at rest."""
 
-    pairs: tuple[MovedPair, ...]
+    pairs: tuple[TouchingPair, ...]
     motions: Mapping[str, Motion | None]
     time: Float[np.ndarray, " t"]
 
@@ -72,7 +72,7 @@ class MovedPairs:
         return _rest(self.time).poses if motion is None else motion.poses
 
 
-def read(o: PairsOptions) -> MovedPairs:
+def read(o: PairsOptions) -> TouchingBodies:
     """Everything the description names."""
     described = read_pairs(o.description)
     add_input("description", o.description, bodies=len(described.bodies), pairs=len(described.pairs))
@@ -83,7 +83,7 @@ def read(o: PairsOptions) -> MovedPairs:
     for body in described.bodies:
         if body.name not in used:
             reserve(f"{o.description}: {body.name} is in no pair and is left out")
-    return MovedPairs(pairs, motions, time)
+    return TouchingBodies(pairs, motions, time)
 
 
 def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, Motion] | None]:
@@ -156,7 +156,7 @@ def _pair(
     o: PairsOptions,
     motions: Mapping[str, Motion | None],
     time: Float[np.ndarray, " t"],
-) -> MovedPair:
+) -> TouchingPair:
     before = len(current().inputs)
     moving, fixed = described.body(pair.moving), described.body(pair.fixed)
     motion = _relative(motions[pair.moving], motions[pair.fixed], time)
@@ -173,7 +173,7 @@ def _pair(
         raise InputError(o.description, place, error.what, error.remedy) from error
     for entry in current().inputs[before:]:
         entry["folder"] = pair.name
-    return MovedPair(pair.name, pair.moving, pair.fixed, asked, bodies)
+    return TouchingPair(pair.name, pair.moving, pair.fixed, asked, bodies)
 
 
 def _relative(moving: Motion | None, fixed: Motion | None, time: Float[np.ndarray, " t"]) -> Motion | None:

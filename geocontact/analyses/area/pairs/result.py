@@ -17,7 +17,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult, area_table, tables_of
-from geocontact.analyses.area.pairs.bodies import MovedPair, MovedPairs, read
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, read
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.area.pairs.show import pair_curves, thinned_page
 from geocontact.analyses.area.pairs.totals import body_loads, counted_twice, loads_table, total_area, totals_table
@@ -48,7 +48,7 @@ class PairsResult(Result):
     """
 
     options: PairsOptions
-    pairs: MovedPairs
+    pairs: TouchingBodies
     motions: tuple[MotionResult, ...]
 
     @property
@@ -98,7 +98,7 @@ class PairsResult(Result):
             found |= {f"{one.name}/{name}": table for name, table in tables_of(one, pair.options).items()}
         return found
 
-    def _both(self) -> list[tuple[MovedPair, MotionResult]]:
+    def _both(self) -> list[tuple[TouchingPair, MotionResult]]:
         return list(zip(self.pairs.pairs, self.motions, strict=True))
 
     def curves(self) -> Mapping[str, CurveSheet]:
@@ -125,7 +125,7 @@ class PairsResult(Result):
         return own.get(folder, self.warnings)
 
 
-def run(pairs: MovedPairs, o: PairsOptions) -> PairsResult:
+def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     """Every pair after the other."""
     with listener().preparing():
         warm_up()
@@ -137,7 +137,7 @@ def run(pairs: MovedPairs, o: PairsOptions) -> PairsResult:
     return PairsResult(options=o, pairs=pairs, motions=motions)
 
 
-def _say_total(pairs: MovedPairs, motions: tuple[MotionResult, ...]) -> None:
+def _say_total(pairs: TouchingBodies, motions: tuple[MotionResult, ...]) -> None:
     e, course = motions[0].evolution, pairs.pairs[0].motion.course
     summary: dict[str, object] = {"pairs": list(pairs.names)}
     for k, threshold in enumerate(e.thresholds):

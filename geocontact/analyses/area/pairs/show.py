@@ -10,7 +10,7 @@ from jaxtyping import Float, Int
 from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.figure import colour_span
 from geocontact.analyses.area.page_sections import in_mm, seen_distances
-from geocontact.analyses.area.pairs.bodies import MovedPair, MovedPairs
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
 from geocontact.analyses.area.pairs.totals import total_area
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.result import REPORT
@@ -25,7 +25,7 @@ FRAMES = 101
 """Frames that the page animates at most."""
 
 
-def pair_curves(pairs: MovedPairs, motions: Sequence[MotionResult]) -> CurveSheet:
+def pair_curves(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> CurveSheet:
     """Area on FIXED by pair and in total at the largest threshold, least distance by pair, force where there is one."""
     e = motions[0].evolution
     k = int(np.argmax(e.thresholds))
@@ -44,7 +44,7 @@ def pair_curves(pairs: MovedPairs, motions: Sequence[MotionResult]) -> CurveShee
     return CurveSheet(panels, pairs.pairs[0].motion.course, columns=1)
 
 
-def thinned_page(title: str, pairs: MovedPairs, motions: Sequence[MotionResult]) -> Thinned:
+def thinned_page(title: str, pairs: TouchingBodies, motions: Sequence[MotionResult]) -> Thinned:
     """The page of all pairs, of as many frames as its file holds."""
     kept = [set(one.maps.frames) for one in motions]
     common = np.array(sorted(set.intersection(*kept)), np.int64)
@@ -59,7 +59,7 @@ def thinned_page(title: str, pairs: MovedPairs, motions: Sequence[MotionResult])
 
 
 def _page(
-    title: str, pairs: MovedPairs, motions: Sequence[MotionResult], frames: Int[np.ndarray, " k"], start: int
+    title: str, pairs: TouchingBodies, motions: Sequence[MotionResult], frames: Int[np.ndarray, " k"], start: int
 ) -> Page:
     course, e = pairs.pairs[0].motion.course, motions[0].evolution
     k = int(np.argmax(e.thresholds))
@@ -95,7 +95,7 @@ def _page(
     )
 
 
-def _scene(pairs: MovedPairs, motions: Sequence[MotionResult], frames: Int[np.ndarray, " k"]) -> Scene:
+def _scene(pairs: TouchingBodies, motions: Sequence[MotionResult], frames: Int[np.ndarray, " k"]) -> Scene:
     """All bodies in the common frame; a body of several pairs has the distance to the nearest of the others."""
     spans = [colour_span(one.evolution) for one in motions]
     surfaces: dict[str, Surface] = {}
@@ -146,7 +146,7 @@ def _texts(values: Float[np.ndarray, " k"], digits: int) -> list[str]:
     return [f"{value:.{digits}f}" for value in values]
 
 
-def _table(pairs: Sequence[MovedPair], motions: Sequence[MotionResult], k: int) -> Table:
+def _table(pairs: Sequence[TouchingPair], motions: Sequence[MotionResult], k: int) -> Table:
     rows = []
     for pair, one in zip(pairs, motions, strict=True):
         e, course = one.evolution, one.motion.course
@@ -159,7 +159,7 @@ def _table(pairs: Sequence[MovedPair], motions: Sequence[MotionResult], k: int) 
     return Table("The pairs, each with its own page", header, rows, links=[f"{one.name}/{REPORT}" for one in motions])
 
 
-def _words(pairs: Sequence[MovedPair]) -> list[Words]:
+def _words(pairs: Sequence[TouchingPair]) -> list[Words]:
     context = (
         "Each pair is evaluated by itself, as two rigid surfaces in given poses: no body knows what another one "
         "presses on, and nothing comes to rest. The total is the sum of the areas on the fixed bodies of the pairs."

@@ -9,7 +9,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult
-from geocontact.analyses.area.pairs.bodies import MovedPair, MovedPairs
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
 from geocontact.data.evolution import MM, MM2
 
 
@@ -38,7 +38,7 @@ def totals_table(motions: Sequence[MotionResult], time: Float[np.ndarray, " t"])
     return pd.DataFrame(columns)
 
 
-def body_loads(pairs: MovedPairs, motions: Sequence[MotionResult]) -> dict[str, Float[np.ndarray, "t 6"]]:
+def body_loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> dict[str, Float[np.ndarray, "t 6"]]:
     """Force [N] and moment about the common frame's origin [N m] that contacts put on each body, in that frame.
 
     A pair's load F, M on FIXED (about FIXED's origin, in its frame) is R F and R M + t x R F with the pose R, t of
@@ -65,7 +65,7 @@ def loads_table(loads: dict[str, Float[np.ndarray, "t 6"]], time: Float[np.ndarr
     return pd.DataFrame({"time [s]": time, **columns})
 
 
-def counted_twice(pairs: Sequence[MovedPair]) -> list[tuple[str, str, str]]:
+def counted_twice(pairs: Sequence[TouchingPair]) -> list[tuple[str, str, str]]:
     """Body and two pairs that have a face of it in common, on which the sum of the areas would count contact twice."""
     found = []
     for k, one in enumerate(pairs):
