@@ -88,7 +88,21 @@ c.write("walk.c3d")
 """
 
 
-BEGINNINGS = {".c3d": b"\x02P" + bytes(1022), ".xlsx": b"PK\x03\x04"}
+MUSCULAR = """\
+import pathlib
+from geocontact.cli.demo import sample_folder
+place = "<socket_parent_frame>/bodyset/{0}</socket_parent_frame><location>{1}</location>"
+point = f"<PathPoint name='{{0}}'>{place}</PathPoint>"
+path = point.format("femur_r", "0.05 -0.1 0") + point.format("tibia_r", "0.05 -0.05 0")
+muscle = "<Thelen2003Muscle name='extensor'><max_isometric_force>5000</max_isometric_force><GeometryPath><PathPointSet>"
+muscle += f"<objects>{path}</objects></PathPointSet></GeometryPath></Thelen2003Muscle>"
+model = (sample_folder() / "leg.osim").read_text("utf-8")
+model = model.replace("</Model>", f"<ForceSet><objects>{muscle}</objects></ForceSet></Model>")
+pathlib.Path("muscular.osim").write_text(model, "utf-8")
+"""
+
+
+BEGINNINGS = {".c3d": b"\x02P" + bytes(1022), ".xlsx": b"PK\x03\x04", ".osim": b"<?xml"}
 """What files begin with that are to look like one before the extra can make them."""
 
 
@@ -135,6 +149,12 @@ EXTRAS = {
     "excel": Extra(f"area {KNEE} --motion two.xlsx --out excel", "openpyxl", WORKBOOK, "two.xlsx"),
     "cohort": Extra("cohort study.toml --workers 1 --out study", "geocontact[cohort]"),
     "parquet": Extra(f"area {KNEE} --motion two.csv --parquet --out parquet", "geocontact[parquet]"),
+    "muscles": Extra(
+        "id {m}/leg_swing.mot --model muscular.osim --muscles --across tibia_r --out muscles",
+        "geocontact[muscles]",
+        MUSCULAR,
+        "muscular.osim",
+    ),
 }
 
 

@@ -2,6 +2,7 @@
 
 from geocontact import chain
 from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
+from geocontact.analyses.area.pairs.result import area_pairs
 from geocontact.analyses.area.result import area, pressure
 from geocontact.analyses.cop.result import centre_of_pressure
 from geocontact.analyses.frame.bodies import read_surface
@@ -68,6 +69,7 @@ __all__ = [
     "Tube",
     "area",
     "area_evolution",
+    "area_pairs",
     "candidates",
     "centre_of_pressure",
     "chain",

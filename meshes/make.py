@@ -17,8 +17,9 @@ from meshes.gait import synthetic_gait
 from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
 from meshes.mat_recordings import recordings
-from meshes.motion_files import opensim_model, opensim_motion, pose_table
+from meshes.motion_files import opensim_model, opensim_motion, pose_table, poses_text
 from meshes.overhead_files import trial_files
+from meshes.patella import COARSE, PAIRS, patella, patella_in_insert
 from meshes.segment_meshes import RINGS, segment_mesh
 from meshes.simple_shapes import SAMPLES
 from meshes.stl import snapped, stl_bytes
@@ -56,15 +57,21 @@ def leg_files() -> dict[str, bytes]:
 
 
 def gait_files() -> dict[str, bytes]:
-    """The gait cycle, settled on the medium right pair, as table, motion and model."""
-    gait = synthetic_gait(*total_knee(RESOLUTIONS["medium"]))
+    """The gait cycle, settled on the medium right pair, as table, motion and model; a patellar button that follows."""
+    insert, femoral = total_knee(RESOLUTIONS["medium"])
+    gait = synthetic_gait(insert, femoral)
+    button = patella(COARSE)
     texts = {
+        "gait_patella.csv": poses_text(gait.time, *patella_in_insert(gait, femoral, button)),
+        "knee_pairs.toml": PAIRS,
         "gait.csv": pose_table(gait),
         "gait_left.csv": pose_table(gait.mirrored()),
         "gait.mot": opensim_motion(gait),
         "knee.osim": opensim_model("tibial_insert_right_medium.stl", "femoral_component_right_medium.stl"),
     }
-    return {name: text.encode("ascii") for name, text in texts.items()}
+    title = "geocontact synthetic patellar button, right, coarse, mm"
+    surface = {"patella_right_coarse.stl": stl_bytes(snapped(button[0]), button[1], title)}
+    return surface | {name: text.encode("ascii") for name, text in texts.items()}
 
 
 def mat_files() -> dict[str, bytes]:

@@ -12,7 +12,7 @@ from meshes.segments import SEGMENTS, Segment
 from meshes.solids import area, is_closed, smallest_angle, volume
 from meshes.stl import read_stl
 
-KINDS = {".stl": "surface", ".csv": "motion", ".mot": "motion", ".osim": "model"}
+KINDS = {".stl": "surface", ".csv": "motion", ".mot": "motion", ".osim": "model", ".toml": "study"}
 FOLDER_KINDS = {
     "frames": "recording",
     "layout": "layout",
@@ -50,7 +50,7 @@ def kind(name: PurePath) -> str:
 
 def data_files(folder: Path) -> list[Path]:
     """The files to describe: those in the folder itself, then the mats' recordings and the trials."""
-    own = sorted(p for p in folder.iterdir() if p.suffix in KINDS)
+    own = sorted(p for p in folder.iterdir() if p.suffix in KINDS and p.name != "manifest.toml")
     return [*own, *(path for pattern in FOLDERS for path in sorted(folder.glob(f"{pattern}/*")))]
 
 

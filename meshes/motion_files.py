@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import numpy as np
+from scipy.spatial.transform import Rotation
+
 from meshes.gait import Gait
 
 
 def pose_table(gait: Gait) -> str:
-    """CSV: time [s], position [mm] and unit quaternion (scalar first) of the femoral component in the insert."""
-    quaternion = gait.rotation().as_quat(canonical=True, scalar_first=True)
+    """Poses of the femoral component in the insert."""
+    return poses_text(gait.time, gait.translation, gait.rotation())
+
+
+def poses_text(time: np.ndarray, translation: np.ndarray, rotation: Rotation) -> str:
+    """CSV: time [s], position [mm] and unit quaternion (scalar first)."""
+    quaternion = rotation.as_quat(canonical=True, scalar_first=True)
     rows = ["time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"]
-    for t, p, q in zip(gait.time, gait.translation, quaternion, strict=True):
+    for t, p, q in zip(time, translation, quaternion, strict=True):
         numbers = [f"{t:.4f}", *(f"{x:.4f}" for x in p + 0.0), *(f"{x:.12f}" for x in q + 0.0)]
         rows.append(", ".join(numbers))
     return "\n".join(rows) + "\n"

@@ -19,6 +19,7 @@ from geocontact.analyses.misalignment.population.drawn import UNITS
 from geocontact.data.plausible import Plausible
 from geocontact.io.cases.gathering import Sources
 from geocontact.io.documents import Document, Holds, Listed, Some, WithUnit
+from geocontact.io.recordings.contact_pairs import PairsDescription
 from geocontact.io.recordings.foot_description import FootDescription
 from geocontact.io.recordings.gait_study import GaitStudy
 from geocontact.io.recordings.overhead_study import OverheadStudy
@@ -63,6 +64,12 @@ class DescribedFile:
 
 FILES = (
     DescribedFile("A study", "`geocontact cohort` ([guide](../how-to/cohort.md))", StudyFile, {}),
+    DescribedFile(
+        "Pairs of bodies",
+        "`geocontact pairs` ([guide](../how-to/regions_and_sides.md#several-pairs)), such as `meshes/knee_pairs.toml`",
+        PairsDescription,
+        {},
+    ),
     DescribedFile(
         "A gap case to gather",
         "`geocontact gap gather` ([guide](../how-to/gap.md#from-pressure-mats)), beside the keys of "

@@ -169,6 +169,13 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
     "area": AREA,
     "pressure": AREA
     | {"force": column("pressure.csv", "force [N]"), "pressure": column("pressure.csv", "peak [MPa]", MPA)},
+    "area_pairs": {
+        "area": grid("totals.csv", "area_total [mm^2]", MM2),
+        "areas": lambda out: {
+            name: grid("totals.csv", f"area_{name} [mm^2]", MM2)(out)
+            for name in ("medial", "lateral", "patellofemoral")
+        },
+    },
     "centre_of_pressure": {
         "force": columns("cop.csv", "force_{} [N]", "xyz"),
         "centre_of_pressure": columns("cop.csv", "cop_{} [m]", "xyz"),

@@ -120,9 +120,13 @@ def test_what_cannot_be_answered_is_refused(
     late.write_text("time [s],total [N]\n9,100\n10,100\n", encoding="utf-8")
     with pytest.raises(InputError, match="no frame of the motion lies in its time"):
         asked(muscular(tmp_path), across="tibia_r", held=late)
+
+
+def test_the_extra_is_named_before_anything_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(muscle_paths, "find_spec", lambda name: None)
-    with pytest.raises(InputError, match="needs the opensim package"):
-        asked(muscular(tmp_path))
+    (tmp_path / "empty.osim").touch()
+    with pytest.raises(InputError, match=r"needs the opensim package; pip install 'geocontact\[muscles\]' \(Python"):
+        asked(tmp_path / "empty.osim")
 
 
 def test_a_contact_force_without_muscles_is_refused() -> None:

@@ -15,8 +15,8 @@ ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_600
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
-controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the plane,
-and keys and checks of made pages."""
+controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the
+plane, pairs of bodies, and keys and checks of made pages."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,

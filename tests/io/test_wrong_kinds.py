@@ -24,6 +24,7 @@ from geocontact.data.parameter import SOURCES
 from geocontact.io.cases.case_settings import read_settings
 from geocontact.io.cases.gathering import read_gathering
 from geocontact.io.mats.layout import read_layout
+from geocontact.io.recordings.contact_pairs import read_pairs
 from geocontact.io.recordings.foot_description import read_foot_description
 from geocontact.io.recordings.gait_study import read_gait_study
 from geocontact.io.recordings.load_cells import read_regression
@@ -323,6 +324,45 @@ kinetic = { value = 0.7, unit = "-" }
             ".* (source|note)": ("number", "bool", "list", "table", "date"),
         },
     ),
+    "pairs": Description(
+        read_pairs,
+        """unit = "mm"
+model = "a.osim"
+coordinates = "a.csv"
+angles = "deg"
+order = "XYZ"
+rate = { value = 100, unit = "Hz" }
+[[bodies]]
+name = "femur"
+mesh = "a.stl"
+motion = "a.csv"
+place = "a.csv"
+closed = true
+[[bodies]]
+name = "insert"
+mesh = "a.stl"
+segment = "tibia_r"
+[[pairs]]
+name = "medial"
+moving = "femur"
+fixed = "insert"
+region = "z < 0"
+region_moving = "ny < 0"
+[pairs.layer]
+modulus = { value = 500, unit = "MPa" }
+poisson = 0.46
+thickness = { value = 8, unit = "mm" }
+piece = { value = 1, unit = "mm" }
+""",
+        {
+            r"(bodies|pairs) \d+ name": ("number", "text"),
+            r"bodies \d+ (place|segment)": ("number", "text"),
+            r"pairs \d+ (moving|fixed)": ("number", "text"),
+            r"pairs \d+ region(_moving)?": ("text",),
+            "order": ("number", "text"),
+            ".* (source|note)": ("number", "bool", "list", "table", "date"),
+        },
+    ),
     "gait": Description(
         read_gait_study,
         """[persons.P1]
@@ -531,7 +571,7 @@ def cases(what: str) -> Iterator[tuple[Place, Any, bool]]:
 def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with all files that the descriptions name."""
     folder = tmp_path_factory.mktemp("descriptions")
-    for name in ("a.csv", "a.stl", "a.particles", "P1_slow.csv", "P1_fast.csv", "P2_slow.csv", "P2_fast.csv"):
+    for name in ("a.csv", "a.stl", "a.osim", "a.particles", "P1_slow.csv", "P1_fast.csv", "P2_slow.csv", "P2_fast.csv"):
         (folder / name).touch()
     (folder / "people.csv").write_text("subject,mass [kg]\nP1,70\nP2,80\n", encoding="utf-8")
     (folder / "offsets.csv").write_text("x [mm]\n1\n2\n", encoding="utf-8")

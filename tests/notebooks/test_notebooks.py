@@ -37,6 +37,15 @@ def pictures(cell) -> int:
     return sum("image/png" in data or "<img src" in data.get("text/html", "") for data in shown)
 
 
+LARGEST = 2_500_000
+"""Bytes of what one cell shows: a page of 2 MB, and what its quotation marks become inside a frame."""
+
+
+def shown_bytes(cell) -> int:
+    """Of the outputs of a cell, as they stand in the file."""
+    return len(json.dumps(cell.outputs))
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch):
     """Execute a notebook with a folder of its own as the place where it writes; returns what its cells said."""
@@ -49,6 +58,8 @@ def run(tmp_path, monkeypatch):
         NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
         cells = [cell for cell in book.cells if cell.cell_type == "code"]
         for cell in cells:
+            assert shown_bytes(cell) < LARGEST, f"{shown_bytes(cell)} bytes below {cell.source}"
+            assert ("<iframe srcdoc=" in str(cell.outputs)) == cell.source.endswith(".embedded()"), cell.source
             assert pictures(cell) >= (SHOWS.search(cell.source) is not None), f"no picture below {cell.source}"
         outputs = [output for cell in cells for output in cell.outputs]
         return "".join(output.get("text", "") for output in outputs)
@@ -85,6 +96,13 @@ def test_bodies_are_seen_where_nothing_was_run(name):
     picture = ROOT / "notebooks" / files[0]
     assert picture.stat().st_size < 100_000 and picture.read_bytes()[8:12] == b"WEBP"
     assert picture.name in (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", WITH_BODIES)
+def test_bodies_are_shown_live_once(name):
+    book = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8"))
+    cells = ["".join(cell["source"]) for cell in book["cells"]]
+    assert sum(cell.endswith(".embedded()") for cell in cells) == 1
 
 
 WITHOUT_PYPLOT = """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import glob
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
@@ -297,6 +297,11 @@ class Bodies:
 
 def read(o: AreaOptions) -> Bodies:
     """Everything the options name."""
+    return read_moved(o, lambda moving: motions_given(o, moving))
+
+
+def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Motion]]]) -> Bodies:
+    """The same with motions, by the names of their sub-folders, that `moved` gives for the surface of MOVING."""
     if o.paraview:
         require_pyvista()
     split = None
@@ -323,7 +328,7 @@ def read(o: AreaOptions) -> Bodies:
     if o.split is not None and split is not None:
         refuse_plane_beside(o.split, split[0], fixed, settings.fixed_faces, o.unit)
         say(f"medial is {split[1].words} of {fixed.name}")
-    motions = tuple(motions_given(o, moving))
+    motions = tuple(moved(moving))
     flexions = flexions_of(o, _expanded(o.motion or ()), motions)
     cutting = cutting_of(o.events, o.cycle_side, o.part)
     stems = tuple(path.stem for path in _expanded(o.motion or ()))

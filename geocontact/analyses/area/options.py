@@ -329,7 +329,7 @@ class AreaOptions(Options):
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
         self._refuse_sides()
         self._refuse_comparison()
-        self._refuse_thresholds()
+        refuse_thresholds(self.threshold)
         self._refuse_errors()
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
             raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
@@ -360,11 +360,13 @@ class AreaOptions(Options):
         if self.seed is not None and self.seed < 0:
             raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
 
-    def _refuse_thresholds(self) -> None:
-        if not self.threshold:
-            raise InputError("", "`threshold`", "there is none", "give for example 4 mm")
-        if len(set(self.threshold)) < len(self.threshold):
-            raise InputError("", "`threshold`", f"{self.threshold} names a threshold twice", "give each once")
+
+def refuse_thresholds(thresholds: tuple[float, ...]) -> None:
+    """InputError where there is none, or one twice."""
+    if not thresholds:
+        raise InputError("", "`threshold`", "there is none", "give for example 4 mm")
+    if len(set(thresholds)) < len(thresholds):
+        raise InputError("", "`threshold`", f"{thresholds} names a threshold twice", "give each once")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -98,7 +98,7 @@ def scene(told: Told) -> Scene:
                 told.fixed.vertices,
                 told.fixed.faces,
                 signed=signed["fixed"],
-                distance=_counted(told.maps.fixed[kept], told.fixed, told.settings.fixed_faces),
+                distance=seen_distances(told.maps.fixed[kept], told.fixed, told.settings.fixed_faces),
             ),
             SceneBody(
                 told.moving.name,
@@ -106,7 +106,7 @@ def scene(told: Told) -> Scene:
                 told.moving.faces,
                 told.motion.poses[told.frames],
                 signed=signed["moving"],
-                distance=_counted(told.maps.moving[kept], told.moving, told.settings.moving_faces),
+                distance=seen_distances(told.maps.moving[kept], told.moving, told.settings.moving_faces),
             ),
         ),
         thresholds=e.thresholds,
@@ -117,7 +117,7 @@ def scene(told: Told) -> Scene:
     )
 
 
-def _counted(
+def seen_distances(
     distance: Float[np.ndarray, "t n"], body: Surface, faces: Bool[np.ndarray, " f"] | None
 ) -> Float[np.ndarray, "t n"]:
     """Distances with vertices of no counted face taken as far away, so that only what counts is coloured."""

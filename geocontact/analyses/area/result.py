@@ -319,12 +319,12 @@ def run(bodies: Bodies, o: AreaOptions) -> AreaResult:
     with listener().preparing():
         warm_up()
     shared = tuple(current().warnings)
-    motions = tuple(_over(bodies, o, name, motion, shared) for name, motion in bodies.motions)
+    motions = tuple(over_motion(bodies, o, name, motion, shared) for name, motion in bodies.motions)
     trials = {} if bodies.cutting is None else area_trials(bodies.cutting, motions, bodies.stems)
     return AreaResult(options=o, bodies=bodies, motions=motions, trials=trials)
 
 
-def _over(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]) -> MotionResult:
+def over_motion(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, shared: tuple[str, ...]) -> MotionResult:
     """One motion; `shared` are the reservations that hold for all of them."""
     before = len(current().warnings)
     evolution, maps = _evaluated(bodies, o, name, motion)

@@ -164,14 +164,21 @@ def finished(page: Page, record: Record, folder: str, reservations: Sequence[str
     return replace(page, facts=facts, sections=tuple(sections), reservations=tuple(kinds), headline=(*first, *told))
 
 
-def write_finished(page: Page | Thinned, file: Path, record: Record, folder: str, reservations: Sequence[str]) -> None:
-    """Write the finished page, thinned out as far as it has to be."""
+def write_finished(
+    page: Page | Thinned,
+    file: Path,
+    record: Record,
+    folder: str,
+    reservations: Sequence[str],
+    largest: int = LARGEST_FILE,
+) -> None:
+    """Write the finished page, thinned out until it has at most `largest` bytes, as far as it can be."""
     most = page.most if isinstance(page, Thinned) else 0
     while True:
         one = page.of(most) if isinstance(page, Thinned) else page
         size = write_page(finished(one, record, folder, reservations), file)
         most = min(most, len(one.time)) // 2
-        if size <= LARGEST_FILE or not isinstance(page, Thinned) or most < page.fewest:
+        if size <= largest or not isinstance(page, Thinned) or most < page.fewest:
             return
 
 

@@ -11,10 +11,12 @@ from functools import wraps
 from html import escape
 from os import PathLike
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from textwrap import shorten
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geocontact.analyses.frame.collector import collecting, current
+from geocontact.analyses.frame.embedded import LARGEST_EMBEDDED, Embedded
 from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
@@ -232,15 +234,18 @@ class Result(ABC):
             home = name.rpartition("/")[0]
             write_finished(page, folder / name, self.record, home, self.reservations(home))
 
-    def write_page(self, file: Path) -> None:
-        """Write the page of the whole, one file that needs no network; of several parts, their figure and tables."""
-        from geocontact.analyses.frame.pages import Drawings, write_finished
+    def write_page(self, file: Path, largest: int | None = None) -> None:
+        """Write the page of the whole, one file that needs no network; of several parts, their figure and tables.
 
-        pages = self._pages(Drawings(self.figures))
+        It shows fewer frames until it has at most `largest` bytes, those of a mail by default.
+        """
+        from geocontact.analyses.frame.pages import LARGEST_FILE, Drawings, write_finished
+
+        pages, most = self._pages(Drawings(self.figures)), LARGEST_FILE if largest is None else largest
         if REPORT in pages:
-            write_finished(pages[REPORT], file, self.record, "", self.reservations(""))
+            write_finished(pages[REPORT], file, self.record, "", self.reservations(""), most)
         else:
-            write_finished(self._plain_page(), file, self.record, "", self.warnings)
+            write_finished(self._plain_page(), file, self.record, "", self.warnings, most)
 
     def _pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
         return self.pages(drawings) or {REPORT: self._plain_page()}
@@ -297,6 +302,13 @@ class Result(ABC):
         with collecting(self.record):
             self.write_page(path)
         return path
+
+    def embedded(self, height: int = 640) -> Embedded:
+        """The page as a notebook shows it, live: bodies in 3-D that turn and play. At most 2 MB, with fewer frames."""
+        with TemporaryDirectory() as folder, collecting(self.record):
+            file = Path(folder) / REPORT
+            self.write_page(file, LARGEST_EMBEDDED)
+            return Embedded(file.read_text(encoding="utf-8"), height)
 
     def __dir__(self) -> list[str]:
         """Names without those that only the frame uses: what Tab offers."""

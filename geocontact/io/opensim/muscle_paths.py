@@ -1,6 +1,6 @@
 """Moment arms and lines of action of a model's muscles, asked of the opensim package in a process of its own.
 
-Its libraries and CasADi's do not load into one process. The package is no dependency: whoever asks for muscles has it.
+Its libraries and CasADi's do not load into one process. The extra `muscles` brings the package.
 """
 
 from __future__ import annotations
@@ -44,6 +44,15 @@ class MusclePaths:
     pulls: Float[np.ndarray, "t m 3"]
 
 
+INSTALL = "pip install 'geocontact[muscles]' (Python 3.11 or 3.12 on Linux x86-64, Windows or macOS)"
+
+
+def require_opensim() -> None:
+    """InputError where the opensim package is not installed."""
+    if find_spec("opensim") is None:
+        raise InputError("", "`muscles`", "needs the opensim package", INSTALL)
+
+
 def muscle_paths(
     model: Path, coordinates: Sequence[str], values: Float[np.ndarray, "t n"], beyond: Sequence[str]
 ) -> MusclePaths:
@@ -56,8 +65,7 @@ def muscle_paths(
     beyond
         Bodies on the far side of a joint; none for pulls of zero.
     """
-    if find_spec("opensim") is None:
-        raise InputError("", "`muscles`", "needs the opensim package", "pip install opensim (Python below 3.13)")
+    require_opensim()
     with TemporaryDirectory() as folder:
         asked, found = Path(folder) / "asked.npz", Path(folder) / "found.npz"
         given = {"model": str(model.absolute()), "names": list(coordinates), "values": values, "beyond": list(beyond)}

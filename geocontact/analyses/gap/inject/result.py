@@ -137,9 +137,9 @@ class InjectResult(Result):
         self.diagnosed.put(folder / DIAGNOSIS)
         write_json(folder / "planted.json", answer(self.effect, self.planted, self.diagnosis, self.judgement))
 
-    def write_page(self, file: Path) -> None:
+    def write_page(self, file: Path, largest: int | None = None) -> None:
         """That of the diagnosis."""
-        self.diagnosed.write_page(file)
+        self.diagnosed.write_page(file, largest)
 
 
 def read(o: InjectOptions) -> CaseWithModel:

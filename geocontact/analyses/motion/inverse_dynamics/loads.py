@@ -36,6 +36,7 @@ from geocontact.identify.signals.gait_cycles import Strikes, strikes_on_plates
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME, plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.external_loads import ExternalLoad, read_external_loads
+from geocontact.io.opensim.muscle_paths import require_opensim
 from geocontact.io.opensim.osim_forces import read_passive_forces
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import TextTable, listed, read_table
@@ -225,6 +226,8 @@ class Loaded:
 
 def read(o: IdOptions) -> Loaded:
     """Everything the options name."""
+    if o.muscles:
+        require_opensim()
     model = read_multibody(o.model)
     add_input("`model`", o.model, bodies=len(model.bodies), coordinates=len(model.coordinates))
     table = read_table(o.coordinates)

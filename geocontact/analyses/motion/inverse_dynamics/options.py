@@ -63,8 +63,8 @@ class IdOptions(Options):
     Muscles
     -------
     muscles
-        Also estimate muscle forces: least squared activation that makes the moments. Needs the opensim package, for
-        paths of muscles.
+        Also estimate muscle forces: least squared activation that makes the moments. Their paths are
+        asked of the opensim package, which the extra `muscles` installs.
     across
         Body beyond a joint whose contact force is computed from muscles and load: tibia_r for a knee.
     held

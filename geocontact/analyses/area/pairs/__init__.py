@@ -1,0 +1,1 @@
+"""Contact of several pairs of bodies that move together."""
