@@ -215,10 +215,6 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     return Unmodelled("lost_samples", name, before - after, sure, words, None, told)
 
 
-LENGTHS = (1, 2, 3, 4, 6, 8, 10)
-"""Parts of the phase, of `PHASES`, that a window has."""
-
-
 @dataclass(frozen=True, eq=False)
 class Regions:
     """Windows of the phase in states: sums of the residual by trial and block, counts by trial, and which is which.
@@ -254,7 +250,7 @@ def regions(residuals: Columns, present: Presence, axes: Mapping[str, Sequence[I
             at = block if own is rows else own * BLOCKS // len(residual)
             np.add.at(sums[i, :, :, s], (at, phase[own]), residual[own])
             np.add.at(counts[i, :, s], phase[own], 1.0)
-    windows = tuple((a, a + n) for n in LENGTHS for a in range(PHASES - n + 1))
+    windows = tuple((a, a + n) for n in range(1, PHASES // 2 + 1) for a in range(PHASES - n + 1))
     through, seen = (np.insert(np.cumsum(each, axis=-2), 0, 0.0, axis=-2) for each in (sums, counts))
     begin, end = np.array(windows).T
     together = (through[:, :, end] - through[:, :, begin]).reshape(shape[0], BLOCKS, -1)

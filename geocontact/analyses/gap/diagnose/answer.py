@@ -48,7 +48,8 @@ def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     explained = {"explained": _explained, "partly_explained": _explained}
     found = {**explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
     then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
-    return [*found(d, cells), *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
+    described = (f"no effect of the table: {one.told}" for one in d.unmodelled)
+    return [*found(d, cells), *described, *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
 
 
 def untried_law(d: Diagnosis, system: System) -> str | None:
