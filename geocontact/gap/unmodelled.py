@@ -151,7 +151,7 @@ class Slip:
 
 
 def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"], most: int) -> Slip | None:
-    """The likeliest slip of a trial of at most so many samples; None where no place is sure. NaN: not measured."""
+    """The likeliest slip of a trial of at most so many samples; None where no slip is likelier. NaN: not measured."""
     n, at = len(measured), np.arange(len(measured))
     moves = np.arange(-most, most + 1)
     squares = np.array([(measured - predicted[np.clip(at + m, 0, n - 1)]) ** 2 for m in moves])
@@ -170,7 +170,7 @@ def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"
     alike = float(np.clip((left[1:] @ left[:-1]) / max(float(left @ left), 1e-300), 0.0, 1.0 - SLIGHT))
     independent = len(left) * (1.0 - alike) / (1.0 + alike)
     nats = 0.5 * independent * float(np.log(before / after)) - float(np.log(n * len(moves)))
-    return Slip(int(moves[row]), place, after, before, nats) if nats > SURE else None
+    return Slip(int(moves[row]), place, after, before, nats)
 
 
 def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
@@ -201,6 +201,9 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
             rows.append((y - p[at])[there])
             columns.append(j[at, c][there])
         shift = np.linalg.lstsq(np.concatenate(columns), np.concatenate(rows), rcond=CLOSE)[0]
+    slips = [one if one is not None and one.nats > SURE else None for one in slips]
+    if not any(slips):
+        return None
     kept = [(trial, one) for trial, one in zip(trials, slips, strict=True) if one is not None]
     told = {trial.name: float(one.samples) for trial, one in kept}
     places = {trial.name: one.place / (len(trial) - 1) for trial, one in kept}
