@@ -144,14 +144,11 @@ def tangents(
         return {}
     loads, ways = found
     known = {name: more for name, more in zip(others, ways, strict=True) if more is not None}
-    totals = system.balance.total(_stacked(loads, list(known.values())))
+    balance = system.balance
+    totals = [balance.total(loads), *(balance.total(_moved(loads, more)) for more in known.values())]
     before, *after = (
-        system.sensor.read(passed_on(system.balance.modifiers, total, movement, own), movement, own)
-        for total, own in zip(
-            totals.reshape(1 + len(known), len(movement.time), -1),
-            (numbers, *(others[name] for name in known)),
-            strict=True,
-        )
+        system.sensor.read(passed_on(balance.modifiers, total, movement, further), movement, further)
+        for total, further in zip(totals, (numbers, *(others[name] for name in known)), strict=True)
     )
     slopes = {}
     for name, own in zip(known, after, strict=True):
@@ -165,21 +162,9 @@ def _same(one: DifferentiatedInputs, other: DifferentiatedInputs) -> bool:
     return all(a is b or np.array_equal(a, b, equal_nan=True) for a, b in arrays)
 
 
-def _stacked(loads: Loads, changes: Sequence[Loads]) -> Loads:
-    """Loads, and below them loads with each change, for a balance that takes every sample by itself.
-
-    Where loads act stays.
-    """
-
-    def below(own: Float[np.ndarray, "t n"], more: Sequence[Float[np.ndarray, "t n"]]) -> Float[np.ndarray, "m n"]:
-        return np.concatenate([own, *(own + each for each in more)])
-
-    return Loads(
-        below(loads.normal, [each.normal for each in changes]),
-        below(loads.tangential, [each.tangential for each in changes]),
-        np.tile(loads.arm, (1 + len(changes), 1)),
-        below(loads.moved, [each.moved for each in changes]),
-    )
+def _moved(loads: Loads, more: Loads) -> Loads:
+    """Loads with a change of them; where they act stays."""
+    return Loads(loads.normal + more.normal, loads.tangential + more.tangential, loads.arm, loads.moved + more.moved)
 
 
 FAR = 1e9

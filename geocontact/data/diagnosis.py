@@ -191,6 +191,54 @@ class Detected:
 
 
 @dataclass(frozen=True)
+class Unmodelled:
+    """What no effect of the table is, described without a model (`gap.unmodelled`).
+
+    Parameters
+    ----------
+    kind
+        "wandering_zero", "lost_samples" or "unrecorded_load".
+    channel
+        That it is in.
+    share
+        Of the channel's squared error, all trials.
+    p_value
+        That it is chance.
+    words
+        What, where, how large.
+    phase
+        Of a load, part of the trial, 0…1.
+    trials
+        Zero of each trial [the channel's unit], or samples that it lost; empty of a load.
+    """
+
+    kind: str
+    channel: str
+    share: float
+    p_value: float
+    words: str
+    phase: tuple[float, float] | None
+    trials: Mapping[str, float]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The content of diagnosis.json."""
+        return {
+            "kind": self.kind,
+            "channel": self.channel,
+            "share": self.share,
+            "p_value": self.p_value,
+            "words": self.words,
+            "phase": None if self.phase is None else list(self.phase),
+            "trials": dict(self.trials),
+        }
+
+    @property
+    def told(self) -> str:
+        """Words, with the share."""
+        return f"{self.words}, {self.share:.0%} of its squared error"
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A parameter's value, its 95 % interval, and whether the trials identify it."""
 
@@ -274,7 +322,8 @@ class Diagnosis:
     be invisible here, `partial` what known effects explain of a gap that is otherwise unknown, `next_experiment` what
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
     enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
-    `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not.
+    `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not;
+    `unmodelled` what no effect is, in words.
     """
 
     case: str
@@ -298,6 +347,7 @@ class Diagnosis:
     apart: Mapping[str, float] = field(default_factory=dict)
     budget: Mapping[str, Mapping[str, BudgetPart]] = field(default_factory=dict)
     detected: tuple[Detected, ...] = ()
+    unmodelled: tuple[Unmodelled, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -334,6 +384,7 @@ class Diagnosis:
                 for channel, parts in self.budget.items()
             },
             "detected": [one.as_dict() for one in self.detected],
+            "unmodelled": [one.as_dict() for one in self.unmodelled],
             "parameters": {
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
                 for name, e in self.parameters.items()

@@ -113,6 +113,11 @@ def closed(found: Attribution, budget: Budget) -> bool:
     )
 
 
+def with_gap(said: Answer) -> Answer:
+    """The answer where something surely is missing that no effect is: no gap is unknown, others stay."""
+    return _moved(said, "none", "unknown", "unknown") if said.verdict == "no_gap" else said
+
+
 def _moved(said: Answer, source: str, target: str, verdict: str) -> Answer:
     """Another verdict, with the probability of what it was."""
     odds = {**said.probabilities, source: 0.0}

@@ -99,6 +99,7 @@ def without_claims(d: Diagnosis, why: str) -> Diagnosis:
         apart={},
         budget={},
         detected=(),
+        unmodelled=(),
     )
 
 

@@ -117,17 +117,26 @@ def stand_slopes(
     dspheres: Float[np.ndarray, "q five n"],
     dlaw: Float[np.ndarray, "q numbers"],
 ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "q t n"]]:
-    """Normal forces of every sample [N] and how they change along each direction."""
+    """Normal forces of every sample [N] and how they change along each direction.
+
+    A sphere is followed along those directions only that change its numbers or the law's.
+    """
     count = len(dlaw)
-    normal, out = np.empty(depth.shape), np.empty((count, *depth.shape))
+    normal, out = np.empty(depth.shape), np.zeros((count, *depth.shape))
     used = np.zeros(law.size, np.bool_)
     for k in range(count):
         used |= dlaw[k] != 0.0
-    dforce = np.empty(count)
     for j in range(depth.shape[1]):
+        acts = np.zeros(count, np.bool_)
+        for k in range(count):
+            acts[k] = dspheres[k, K, j] != 0.0 or dspheres[k, B, j] != 0.0 or (dlaw[k] != 0.0).any()
+        which = np.flatnonzero(acts)
         old, new = np.zeros(MEMORY), np.zeros(MEMORY)
-        dold, dnew = np.zeros((count, MEMORY)), np.zeros((count, MEMORY))
-        dk, db = dspheres[:, K, j].copy(), dspheres[:, B, j].copy()
+        dold, dnew = np.zeros((which.size, MEMORY)), np.zeros((which.size, MEMORY))
+        dk, db, dforce = np.empty(which.size), np.empty(which.size), np.empty(which.size)
+        dnumbers = np.empty((which.size, law.size))
+        for k in range(which.size):
+            dk[k], db[k], dnumbers[k] = dspheres[which[k], K, j], dspheres[which[k], B, j], dlaw[which[k]]
         for i in range(depth.shape[0]):
             normal[i, j] = sphere_slopes(
                 depth[i, j],
@@ -140,13 +149,13 @@ def stand_slopes(
                 used,
                 dk,
                 db,
-                dlaw,
+                dnumbers,
                 dold,
                 new,
                 dnew,
                 dforce,
             )
-            for k in range(count):
-                out[k, i, j] = dforce[k]
+            for k in range(which.size):
+                out[which[k], i, j] = dforce[k]
             old, new, dold, dnew = new, old, dnew, dold
     return normal, out

@@ -236,12 +236,12 @@ class FootSpheres:
         known = ~((towards(self.slots, values, others)[:, 0] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
         moving = known & (dlaw.any(axis=1) | dspheres.any(axis=(1, 2)))
         normal, slopes = stand_slopes(movement.time, depth, closing, spheres, numbers, dspheres[moving], dlaw[moving])
-        found = np.zeros((len(others), *normal.shape))
-        found[moving] = slopes
         tangential = rub(normal, speed, rate[2], numbers, n)
         share = np.divide(tangential, normal, out=np.zeros_like(normal), where=normal > 0.0)
         nothing = np.zeros_like(normal)
         arm = self.px - np.sin(pose[2])[:, None] * self.radius
+        changed = iter(slopes)
+        found = [next(changed) if there else nothing for there in moving]
         more = [
             Loads(force, force * share, nothing) if there else None for force, there in zip(found, known, strict=True)
         ]

@@ -46,6 +46,7 @@ KEYS = [
     "gap",
     "budget",
     "detected",
+    "unmodelled",
     "parameters",
 ]
 KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]

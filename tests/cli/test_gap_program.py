@@ -34,7 +34,7 @@ simulate = {simulate}
 inputs = ["angle"]
 outputs = ["torque"]
 calibration = ["t01", "t02"]
-evaluation = ["t03"]
+evaluation = ["t03", "t04"]
 
 [noise]
 torque = 0.2
@@ -51,6 +51,7 @@ lower = -0.3
 upper = 0.3
 unit = "rad"
 """
+NAMES = ("t01", "t02", "t03", "t04")
 LATE = 0.08
 """s."""
 RAN = "ran.txt"
@@ -66,7 +67,7 @@ def wrapped(folder: Path, late: float = LATE) -> Path:
     words = f"awk -F , -v out={{out}} -v {ran} -f {script} {{params}} {{trial}}"
     (folder / "case.toml").write_text(SETTINGS.format(simulate=json.dumps(words)), encoding="utf-8")
     rng = np.random.default_rng(5)
-    for k, name in enumerate(("t01", "t02", "t03")):
+    for k, name in enumerate(NAMES):
         time = 0.03 * np.arange(120)
 
         def angle(at: np.ndarray, k: int = k) -> np.ndarray:
@@ -114,6 +115,6 @@ def test_what_is_planted_beside_a_program_is_in_the_measured_column(tmp_path: Pa
     with known():
         done(asked("plant", case, out, *PLANTED, "--run-simulator"))
     assert (case / RAN).exists()
-    for name in ("t01", "t02", "t03"):
+    for name in NAMES:
         before, after = (pd.read_csv(home / "trials" / f"{name}.csv") for home in (case, out / "case"))
         np.testing.assert_allclose(after["torque [N m]"] - before["torque [N m]"], 1.5, atol=1e-9)

@@ -39,6 +39,7 @@ WRONG = {
     "two meanings": ("elbow", "case.toml", "\nl = ", "\nk = 2.0\nl = ", "[parameters.k]: is in [constants] too"),
     "overlap": ("elbow", "case.toml", "['t03', 't04']", "['t02', 't04']", "evaluation: 't02' is listed in calibration"),
     "one to fit": ("elbow", "case.toml", "['t01', 't02']", "['t01']", "calibration: 1 trial to fit to: how much"),
+    "one held out": ("elbow", "case.toml", "['t03', 't04']", "['t03']", "evaluation: 1 trial held out: how much"),
     "no such trial": ("elbow", "case.toml", "'t04'", "'t09'", "evaluation: no file trials/t09.csv"),
     "noise of nothing": ("elbow", "case.toml", "force = ", "torque = ", "[noise]: no trial has a channel 'torque'"),
     "noise below zero": ("elbow", "case.toml", "force = ", "force = -", "[noise] force: is -0.15; a standard deviatio"),

@@ -6,13 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from geocontact.effects.catalogue import candidates
+from geocontact.gap.case.plain_fit import plain_fit
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.whitening import sensitivity
-from geocontact.gap.reduction.error_reduction import LONE, WIDE, between, error_reduction, relative_scatter
-from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors
+from geocontact.gap.reduction.error_reduction import (
+    LONE,
+    WIDE,
+    between,
+    error_reduction,
+    error_reduction_of,
+    relative_scatter,
+)
+from geocontact.gap.reduction.raw_input_errors import directions, passed_on, raw_input_errors, unseen
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import base_contender, singles
 from geocontact.systems.catalogue import system_of
@@ -106,9 +115,48 @@ def test_a_reduction_is_stated_with_its_interval(problem: Problem) -> None:
     assert (nothing.low, nothing.reduction, nothing.high) == (0.0, 0.0, 0.0)
 
 
+def test_each_trial_is_predicted_by_a_fit_to_the_others(problem: Problem) -> None:
+    """Beside fits to the others by another search."""
+    system, count = problem.system.as_measured(), len(problem.calibration.trials)
+    recorded = problem.recorded
+    first = replace(recorded, trials=recorded.trials[:count], outputs=recorded.outputs[:count])
+    fitted = plain_fit(system, first, problem.floor, [problem.plain.values])
+    names, start = list(fitted.values), np.array(list(fitted.values.values()))
+    found = unseen(system, first, problem.floor, fitted.values, fitted.residuals)
+
+    def off(i: int, x: np.ndarray) -> np.ndarray:
+        told = system.simulate(first.trials[i], dict(zip(names, x * start, strict=True)))
+        return np.asarray(first.outputs[i] - told)[:, 0]
+
+    for i in range(count):
+        others = [j for j in range(count) if j != i]
+        best = least_squares(
+            lambda x, some=others: np.concatenate([off(j, x) for j in some]) / problem.floor[0], np.ones(len(names))
+        )
+        exact = off(i, best.x)
+        assert np.sqrt(np.mean((found[i][:, 0] - exact) ** 2)) < 0.1 * np.sqrt(np.mean(exact**2))
+        assert np.mean(exact**2) > np.mean(fitted.residuals[i] ** 2)
+
+
+def test_the_interval_has_what_all_trials_show(problem: Problem) -> None:
+    """A fit without one of the calibration trials that predicts it much worse than the base model does."""
+    judged = named(problem, "damping")
+    errors = raw_input_errors(problem, problem, judged, None)
+    usual = error_reduction_of(errors, problem, judged, True, None)["force"]
+    count = len(problem.calibration.trials)
+    worse = [3.0 * each if i < count else each for i, each in enumerate(errors.unseen_after)]
+    wider = error_reduction_of(replace(errors, unseen_after=worse), problem, judged, True, None)["force"]
+    squares = [np.mean(np.concatenate(parts) ** 2) for parts in (errors.unseen, worse)]
+    assert wider.low == pytest.approx(1.0 - float(np.sqrt(squares[1] / squares[0])))
+    assert wider.low < usual.low and wider.high == usual.high
+
+
 def test_what_held_out_trials_show_is_inside_the_interval(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also where the best fit says otherwise, as it does where something else is missing as well."""
     judged = named(problem, "damping")
     monkeypatch.setattr("geocontact.gap.reduction.error_reduction._gone", lambda *_: (1e-9, 1e-9))
     found = error_reduction(problem, problem, judged, True)["force"]
-    assert found.reduction < 0.1 and found.high == pytest.approx(1.0 - found.rmse_after / found.rmse_before)
+    errors = raw_input_errors(problem, problem, judged, None)
+    whole = [np.mean(np.concatenate(parts) ** 2) for parts in (errors.unseen, errors.unseen_after)]
+    shown = [1.0 - found.rmse_after / found.rmse_before, 1.0 - float(np.sqrt(whole[1] / whole[0]))]
+    assert found.reduction < 0.1 and found.high == pytest.approx(max(shown))

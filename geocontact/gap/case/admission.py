@@ -32,7 +32,10 @@ def admitted(case: GapCase, system: System) -> GapCase:
     _require_own_recordings(case, system)
     if len(case.calibration) == 1:
         what = "1 trial to fit to: how much trials differ from each other is not known"
-        raise _refusal(case, "calibration", what, "list at least 2, and one or more to evaluate on")
+        raise _refusal(case, "calibration", what, "list at least 2, and 2 or more to evaluate on")
+    if len(case.evaluation) == 1:
+        what = "1 trial held out: how much of its error is its own, and how far a gap shrinks on others, is not known"
+        raise _refusal(case, "evaluation", what, "list at least 2, and 2 or more to fit to")
     for site, cells in case.cells.items():
         if cells.channel not in system.outputs:
             what = f"the model does not predict {cells.channel}, which the cells of {site} add up to"

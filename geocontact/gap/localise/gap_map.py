@@ -247,7 +247,7 @@ def _means(problem: Problem, base: Judged, residuals: list[Float[np.ndarray, "_ 
                 np.add.at(counts[i], (blocks[i][rows], own[rows]), 1.0)
                 total += float((residual[rows, c] ** 2).sum())
             cells += [_GapSums(name, axis, edges, sums, counts, total)]
-    p_values = _family_wise([each.sums.reshape(-1, each.sums.shape[-1]) for each in cells])
+    p_values = family_wise([each.sums.reshape(-1, each.sums.shape[-1]) for each in cells])
     return [cell for each, p in zip(cells, p_values, strict=True) for cell in each.cells(p, rng)]
 
 
@@ -303,7 +303,7 @@ def systematic(
     return np.asarray(np.maximum((times @ sums) ** 2 - times @ sums**2, 0.0) / np.maximum(times @ counts, 1.0))
 
 
-def _family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:
+def family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:
     """p of every column of block sums, by flipping the signs of all blocks of a map."""
     together = np.concatenate(tables, axis=1)
     size = np.sqrt((together**2).sum(axis=0))

@@ -9,10 +9,10 @@ the one error beyond the other, which may be less than nothing. Then
 
     reduction = 1 - rmse_after / rmse_before = 1 - (1 + g²/a²)^(-1/2).
 
-The interval comes from the spread of log g² and of log a² over all trials, fitted ones too: parameters and the form of
-the effect, which is never exactly that of the candidate (from the fit), trials that differ in motion and in their
-deviations. What the held-out trials show is always inside: where what is named is not all that is missing, the best fit
-is not the truth, and the curves are right.
+The interval comes from the spread of log g² and of log a² over all trials, each fitted one predicted by a fit to the
+others: parameters and the form of the effect, which is never exactly that of the candidate (from the fit), trials that
+differ in motion and in their deviations. What the held-out trials show, and what all do when each is left out once, is
+always inside: where what is named is not all that is missing, the best fit is not the truth, and the curves are right.
 
 Leaving a trial out needs no fit of its own: with each trial's whitened residual r_i and derivatives D_i at the common
 fit, A_i = D_iᵀ D_i and g_i = D_iᵀ r_i, one Gauss-Newton step without trial i is
@@ -143,7 +143,9 @@ def error_reduction_of(
         if error >= TELLING * floor:
             share = min(max(left - floor, 0.0) / (left + gone - floor), 1.0) if left + gone > floor else 0.0
         seen = 1.0 - (stays / error) ** 0.5 if error > 0.0 else 0.0
-        low, high = min(float(low), seen), max(float(high), seen)
+        whole = _mean_square(errors.unseen, present, c), _mean_square(errors.unseen_after, present, c)
+        by_all = 1.0 - (whole[1] / whole[0]) ** 0.5 if whole[0] > 0.0 and data_error is None else seen
+        low, high = min(float(low), seen, by_all), max(float(high), seen, by_all)
         found[name] = ErrorReduction(error**0.5, stays**0.5, floor**0.5, float(middle), low, high, share)
     return found
 
@@ -183,7 +185,7 @@ def _gone(problem: Problem, errors: RawInputErrors, c: int) -> tuple[float, floa
         own = errors.derivatives[i][there, c]
         if not len(own):
             continue
-        off = (errors.before[i] - errors.best[i])[there, c]
+        off = (errors.unseen[i] - errors.best[i])[there, c]
         seen.append((i >= count, float(np.mean(off**2))))
         if i < count:
             continue

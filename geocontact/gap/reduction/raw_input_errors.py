@@ -5,6 +5,7 @@ That is what a simulator in somebody's hands does; smoothing inputs first leaves
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from jaxtyping import Float
 from geocontact.chain.system import System
 from geocontact.gap.case.plain_fit import Plain, measured_fit
 from geocontact.gap.case.problem import Problem, differences, noise_variance
-from geocontact.gap.case.refit import ROUNDS, refit
+from geocontact.gap.case.refit import ROUNDS, Measured, derivatives, free, refit
 from geocontact.gap.data_errors import DataError, put_back
 from geocontact.gap.inputs.denoise import changed, drawn
 from geocontact.gap.inputs.spectrum import measured_inputs
@@ -49,6 +50,8 @@ class RawInputErrors:
         How many trials tell that.
     values, fitted
         Parameters of the base model, and of the answer.
+    unseen, unseen_after
+        `before` and `after` with each calibration trial predicted from the others (`unseen`).
     """
 
     before: list[Float[np.ndarray, "_ c"]]
@@ -61,6 +64,8 @@ class RawInputErrors:
     told_by: int
     values: dict[str, float]
     fitted: dict[str, float]
+    unseen: list[Float[np.ndarray, "_ c"]]
+    unseen_after: list[Float[np.ndarray, "_ c"]]
 
 
 def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_error: DataError | None) -> RawInputErrors:
@@ -71,7 +76,7 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     """
     whole, outputs = problem.recorded, problem.system.outputs
     names, count = [trial.name for trial in whole.trials], len(problem.calibration.trials)
-    derivatives = [put_back(data_error, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
+    slopes = [put_back(data_error, n, outputs, d) for n, d in zip(names, directions(answer), strict=True)]
     model = answer.model
     predicted = clean.recorded.residuals(model.system.as_measured(), model.values)
     at_best = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
@@ -79,17 +84,59 @@ def raw_input_errors(problem: Problem, clean: Problem, answer: Judged, data_erro
     after = [put_back(data_error, name, outputs, each) for name, each in zip(names, predicted, strict=True)]
     varies = observed_variation(clean, answer)
     shift, known = from_all_trials(clean, answer, varies)
-    best = [r - j @ shift for r, j in zip(at_best, derivatives, strict=True)]
+    best = [r - j @ shift for r, j in zip(at_best, slopes, strict=True)]
     implied = _implied(clean, answer, varies, data_error)
     sound = [data_error is None or name not in data_error.trials for name in names[:count]]
     used = [*(sound if any(sound) else [True] * count), *(True for _ in names[count:])]
-    left = tuple(_left(problem, derivatives, known, used, best, implied, c) for c in range(len(outputs)))
+    left = tuple(_left(problem, slopes, known, used, best, implied, c) for c in range(len(outputs)))
     first = replace(whole, trials=whole.trials[:count], outputs=whole.outputs[:count])
     whiten = [Plain(there, np.sqrt([value for value, _ in left])) for there in first.present]
     base = problem.system.as_measured()
     values = refit(base, first, whiten, [problem.plain.values], ROUNDS).values
     before = whole.residuals(base, values)
-    return RawInputErrors(before, after, best, derivatives, known, implied, left, sum(used), values, fitted)
+    told = left, sum(used), values, fitted
+    if data_error is not None:  # what a fit to trials with a mistake predicts of others says nothing of the effect
+        return RawInputErrors(before, after, best, slopes, known, implied, *told, before, after)
+    floor = np.sqrt([value for value, _ in left])
+    apart = [*unseen(base, first, floor, values, before[:count]), *before[count:]]
+    later = unseen(model.system.as_measured(), first, clean.floor, fitted, after[:count])
+    return RawInputErrors(before, after, best, slopes, known, implied, *told, apart, [*later, *after[count:]])
+
+
+def unseen(
+    system: System,
+    fitted: Measured,
+    floor: Float[np.ndarray, " c"],
+    values: Mapping[str, float],
+    residuals: Sequence[Float[np.ndarray, "_ c"]],
+) -> list[Float[np.ndarray, "_ c"]]:
+    """Residuals of each trial of a fit to all of them, predicted from a fit to the others.
+
+    That fit is one Gauss-Newton step away, within bounds, and the trial is simulated there. With r_i and J_i divided by
+    the floor, δ₋ᵢ = (Σ_{j≠i} J_jᵀJ_j + S⁻²)⁻¹ Σ_{j≠i} J_jᵀ r_j, S the prior spread, 0 of a parameter on a bound; the
+    step of all trials together, nothing at a finished fit, is taken off.
+
+    Parameters
+    ----------
+    values, residuals
+        Of the fit to all of the trials in `fitted`.
+    """
+    parameters, spread = free(system), prior_spread(system, dict(values))
+    weights = [Plain(there, floor) for there in fitted.present]
+    slopes = derivatives(system, fitted, values, residuals)
+    design = [w(j * spread) for w, j in zip(weights, slopes, strict=True)]
+    left = [w(r[..., None])[:, 0] for w, r in zip(weights, residuals, strict=True)]
+    grams, pulls = [j.T @ j for j in design], [j.T @ r for j, r in zip(design, left, strict=True)]
+    known, pull = np.eye(len(spread)) + sum(grams), sum(pulls)
+    found = []
+    for trial, measured, gram, own in zip(fitted.trials, fitted.outputs, grams, pulls, strict=True):
+        step = spread * (np.linalg.solve(known - gram, pull - own) - np.linalg.solve(known, pull))
+        there = {
+            p.name: float(np.clip(values[p.name] + by, p.lower, p.upper))
+            for p, by in zip(parameters, step, strict=True)
+        }
+        found += replace(fitted, trials=(trial,), outputs=(measured,)).residuals(system, there)
+    return found
 
 
 def passed_on(

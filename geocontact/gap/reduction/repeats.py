@@ -104,8 +104,13 @@ def _in_bins(
 
 def _common(sums: Float[np.ndarray, "n i b"], counts: Float[np.ndarray, "i b"]) -> Float[np.ndarray, " n"]:
     """Sum of squares that trials share, of each set of sums."""
+    return np.asarray(shared(sums, counts).sum(axis=-1))
+
+
+def shared(sums: Float[np.ndarray, "n i b"], counts: Float[np.ndarray, "i b"]) -> Float[np.ndarray, "n b"]:
+    """Sum of squares that trials share in each bin, of each set of sums."""
     means = sums / np.maximum(counts, 1.0)
     trials = (counts > 0.0).sum(axis=0)
     pairs = np.maximum(trials * (trials - 1.0), 1.0)
     products = (means.sum(axis=1) ** 2 - (means**2).sum(axis=1)) / pairs
-    return np.asarray((products * np.where(trials > 1, counts.sum(axis=0), 0.0)).sum(axis=-1))
+    return np.asarray(products * np.where(trials > 1, counts.sum(axis=0), 0.0))

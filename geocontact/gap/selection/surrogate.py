@@ -17,6 +17,7 @@ from jaxtyping import Float
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.noise_sources import usual_range
 from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
@@ -81,7 +82,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
         best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
         for name, features in made:
-            white = unbent(np.concatenate([w(part) for w, part in zip(whitenings, features, strict=True)]))
+            white = unbent(np.concatenate([_whitened(w, part) for w, part in zip(whitenings, features, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
                 predicted, by_calibration = (
@@ -113,6 +114,16 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
         for one, best in found
     ]
     return max(gained, key=lambda each: each.nats)
+
+
+def _whitened(whitening: Whitening, features: Float[np.ndarray, "t c m"]) -> Float[np.ndarray, "n m"]:
+    """Whitened features of a trial; those of other trials are nothing in it."""
+    own = features.any(axis=(0, 1))
+    if own.all():
+        return whitening(features)
+    out = np.zeros((len(whitening.directions), features.shape[-1]))
+    out[:, own] = whitening(features[..., own])
+    return out
 
 
 def _without(

@@ -13,6 +13,7 @@ from geocontact.analyses.gap.diagnose.shrinking import (
     interval,
     removed_words,
     sizes_words,
+    telling,
 )
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import CellsHeld, Diagnosis, Partial, Where
@@ -47,7 +48,8 @@ def verdict_sentences(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
     explained = {"explained": _explained, "partly_explained": _explained}
     found = {**explained, "no_gap": _no_gap, "unknown": _unknown, "unresolved": _unresolved}[d.verdict]
     then = [] if d.next_experiment is None else [proposal_words(d.next_experiment, d.verdict)]
-    return [*found(d, cells), *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
+    described = (f"no effect of the table: {one.told}" for one in d.unmodelled)
+    return [*found(d, cells), *described, *_faults(d), *(f"remark: {remark}" for remark in d.remarks), *then]
 
 
 def untried_law(d: Diagnosis, system: System) -> str | None:
@@ -176,7 +178,8 @@ def in_part(partial: Partial) -> str:
     shares = [(name, part, ci95) for name, (part, ci95) in partial.removed.items() if part > 0.0]
     shares.sort(key=lambda each: -each[1])
     parts = [
-        f"{percent(part)} % (95 % interval {interval(ci95)}) of {'that' if k else 'the error'} of {name}"
+        f"{percent(part)} %{f' (95 % interval {interval(ci95)})' if telling(ci95) else ''} of "
+        f"{'that' if k else 'the error'} of {name}"
         for k, (name, part, ci95) in enumerate(shares)
     ]
     some = f"{names(partial.effects)} {'explains' if len(partial.effects) == 1 else 'explain'}"

@@ -138,7 +138,7 @@ def read(o: InitOptions) -> GapCase:
     files = sorted(each for each in o.data.glob("*.csv") if each.is_file())
     if len(files) < 3:
         what = f"holds {len(files)} .csv files"
-        raise InputError(o.data, "", what, "give a file per trial: two to fit to and one held out at least")
+        raise InputError(o.data, "", what, "give a file per trial: two to fit to and two held out at least")
     tables = alike({each.stem: read_trial(each) for each in files})
     for each in files:
         add_input("trial", each)

@@ -1,0 +1,176 @@
+"""What no effect is, described: a zero of each trial's own, lost samples, a load by its place. Data are synthetic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from geocontact.data.diagnosis import Diagnosis
+from geocontact.data.gap_case import GapCase
+from geocontact.data.trial import Trial
+from geocontact.gap.attribute import Attribution
+from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.refit import Measured, Refit
+from geocontact.gap.diagnose import diagnose
+from geocontact.gap.selection.evidence import Judged
+from geocontact.gap.selection.model_comparison import Contender
+from geocontact.gap.selection.verdict import Answer
+from geocontact.gap.unmodelled import Rest, loads_by_place, lost_samples, regions, slip_of, wandering_zero
+from geocontact.systems.catalogue import system_of
+from tests.elsewhere import Elsewhere
+from tests.gap.test_discrepancy_by_hand import bare
+from tests.gap.test_slip_and_play import joint_case, wander
+
+Column = np.ndarray
+ZEROS = {"t0": 2.5, "t1": -3.0, "t2": 1.0, "t3": -2.0, "t4": 3.5}
+"""Of each trial [N m], many times what zeros and placement usually differ by."""
+LOST = {"t0": (7, 0.45), "t1": (0, 0.0), "t2": (5, 0.6), "t3": (8, 0.3), "t4": (6, 0.7)}
+"""Samples that the torque of each trial lost, and at which share of it."""
+
+
+def spring(_: Column, angle: Column) -> Column:
+    return 31.0 * (angle - 0.05)
+
+
+def altered(case: GapCase, change: Callable[[str, Column], Column]) -> GapCase:
+    """The torque of each trial as `change` has it."""
+
+    def of(trial: Trial) -> Trial:
+        values = trial.signals.values.copy()
+        values[:, 1] = change(trial.name, values[:, 1])
+        return replace(trial, signals=replace(trial.signals, values=values))
+
+    return replace(case, calibration=tuple(map(of, case.calibration)), evaluation=tuple(map(of, case.evaluation)))
+
+
+def without(name: str, torque: Column) -> Column:
+    """Samples lost, the file filled up with the last one."""
+    count, share = LOST[name]
+    at = round(share * len(torque))
+    return np.concatenate([torque[:at], torque[at + count :], np.full(count, torque[-1])])
+
+
+CASES: dict[str, Callable[[], GapCase]] = {
+    "zero": lambda: altered(joint_case(spring), lambda name, torque: torque + ZEROS[name]),
+    "lost": lambda: altered(joint_case(spring), without),
+    "load": lambda: joint_case(wander),
+    "nothing": lambda: joint_case(spring),
+}
+
+
+def said(sort: str) -> Diagnosis:
+    """Diagnosis of a case of this sort."""
+    case = CASES[sort]()
+    return diagnose(case, system_of(case)).diagnosis
+
+
+def fitted(sort: str) -> tuple[Attribution, Rest]:
+    """The spring fitted to the calibration trials of a case by a straight line, and what it leaves of all trials."""
+    case = CASES[sort]()
+    system = system_of(case).scaled(case.calibration)
+    angle, torque = (np.concatenate([t.column(name) for t in case.calibration]) for name in ("angle", "torque"))
+    slope, level = np.polyfit(angle, torque, 1)
+    values = {"k": float(slope), "angle0": float(-level / slope)}
+    recorded = Measured.of(system, case.calibration + case.evaluation, np.array([0.1]))
+    residuals = recorded.residuals(system, values)
+    jacobian = [
+        np.stack([t.column("angle") - values["angle0"], np.full(len(t), -slope)], axis=-1)[:, None]
+        for t in recorded.trials
+    ]
+    problem = bare(Problem, system=system, recorded=recorded)
+    judged = bare(Judged, model=bare(Refit, jacobian=jacobian))
+    answer = bare(Answer, chosen=bare(Contender, judged=judged))
+    usual = np.array([0.04 * slope, 0.0087])
+    rest = Rest(residuals, recorded.present, [j * usual for j in jacobian], np.array([0.1]))
+    return bare(Attribution, problem=problem, answer=answer), rest
+
+
+def size_of(rest: Rest) -> float:
+    return sum(float((r**2).sum()) for r in rest.residuals)
+
+
+def test_a_slip_is_found_at_its_place_and_number() -> None:
+    """Beside all places and numbers, one after the other."""
+    rng, n = np.random.default_rng(2), 240
+    predicted = np.cumsum(rng.standard_normal(n + 20))[: n + 20]
+    measured = np.concatenate([predicted[:100], predicted[106 : n + 6]]) + 0.3 * rng.standard_normal(n)
+    measured[30:40] = np.nan
+    found = slip_of(measured, predicted[:n], 15)
+    assert found is not None and (found.samples, found.place) == (6, 99)
+    costs = {}
+    for m in range(-15, 16):
+        for place in range(n):
+            at = np.arange(n)
+            at = np.clip(at + np.where(at > place, m, 0), 0, n - 1)
+            costs[m, place] = float(np.nansum((measured - predicted[:n][at]) ** 2))
+    least = min(costs, key=lambda key: costs[key])
+    assert least == (6, 99) and found.after == pytest.approx(costs[least])
+    assert found.before == pytest.approx(min(costs[m, 0] for m in range(-15, 16)), rel=0.05)
+
+
+def test_noise_and_a_constant_delay_have_no_slip() -> None:
+    rng, n = np.random.default_rng(3), 240
+    predicted = np.sin(0.1 * np.arange(n))
+    for measured in (predicted, np.roll(predicted, 3)):
+        found = slip_of(measured + 0.1 * rng.standard_normal(n), predicted, 15)
+        assert found is None or found.nats < 0.0
+
+
+def test_sums_of_regions_are_those_of_their_samples() -> None:
+    rng, n = np.random.default_rng(4), 200
+    residuals, present = [rng.standard_normal(n) for _ in range(2)], [rng.random(n) > 0.1 for _ in range(2)]
+    phase = [np.minimum((np.arange(n) / n * 20).astype(int), 19)] * 2
+    state = [rng.integers(0, 8, n) for _ in range(2)]
+    found = regions(residuals, present, {"phase": phase, "angle": state})
+    for place in rng.integers(0, found.sums.shape[-1], 40):
+        (begin, end), (name, quarter, way) = found.of(int(place))
+        for i in range(2):
+            inside = present[i] & (phase[i] >= begin) & (phase[i] < end)
+            if name:
+                inside &= (state[i] // 2 == quarter) & ((way < 0) | (state[i] % 2 == way))
+            assert found.counts[i, place] == inside.sum()
+            assert found.sums[i, :, place].sum() == pytest.approx(residuals[i][inside].sum())
+
+
+def test_a_zero_of_each_trials_own_has_its_size() -> None:
+    found, rest = fitted("zero")
+    one = wandering_zero(found, rest, 0)
+    assert one is not None and one.kind == "wandering_zero" and one.share > 0.9 * size_of(rest)
+    mean = sum(ZEROS.values()) / len(ZEROS)
+    for name, size in ZEROS.items():
+        assert one.trials[name] == pytest.approx(size - mean, abs=0.1)
+
+
+def test_lost_samples_are_counted_in_each_trial() -> None:
+    """Each has its own number at its own place, one has lost none."""
+    found, rest = fitted("lost")
+    one = lost_samples(found, rest, 0)
+    assert one is not None and one.share > 0.8 * size_of(rest)
+    assert one.trials == {name: float(count) for name, (count, _) in LOST.items() if count}
+    assert "7 in t0 at 44%" in one.words or "7 in t0 at 45%" in one.words
+
+
+def test_a_load_that_was_not_recorded_has_its_place() -> None:
+    """Bumps of 1.2 N m at 30 and 70 % of every trial: two places, either with its sign."""
+    found, rest = fitted("load")
+    up, down = sorted(loads_by_place(found, rest.cleared(), 0, size_of(rest)), key=lambda one: one.phase or (0.0, 0.0))
+    assert up.phase and down.phase and up.phase[0] < 0.3 < up.phase[1] and down.phase[0] < 0.7 < down.phase[1]
+    assert ": +" in up.words and ": -" in down.words and max(up.p_value, down.p_value) < 0.05
+    assert up.words.startswith("unrecorded load in torque, phase")
+
+
+def test_of_noise_nothing_is_described() -> None:
+    found, rest = fitted("nothing")
+    assert wandering_zero(found, rest, 0) is None and lost_samples(found, rest, 0) is None
+    assert not list(loads_by_place(found, rest.cleared(), 0, size_of(rest)))
+
+
+@pytest.mark.slow
+def test_a_diagnosis_describes_a_zero_of_each_trials_own(elsewhere: Elsewhere) -> None:
+    d = elsewhere(said, "zero")
+    assert d.effects == ()
+    (one,) = d.unmodelled
+    assert one.told.startswith("zero of torque differs from trial to trial")
