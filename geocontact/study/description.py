@@ -30,11 +30,25 @@ options of their own are listed one by one:
     [[trials]]
     subject = "P1"
     options = { motion = "P1.sto", map = "rz=knee_flexion,ty=knee_ty", angles = "rad" }
+
+Steps before the analysis are analyses too, for each trial, each value of a name (`per = ["subject"]`) or once (`per =
+[]`). `{STEP:FILE}` is a file among the results of a step: of the same trial, the same subject, or all of them.
+
+    [steps.scale]
+    analysis = "scale"
+    per = ["subject"]
+    where = { condition = ["static"] }
+    options = { model = "generic.osim", markers = "{file}" }
+
+    [steps.ik]
+    analysis = "ik"
+    options = { model = "{scale:model.osim}", markers = "{file}" }
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -42,7 +56,19 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, ConfigDict, Field, PlainValidator, PrivateAttr, model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import AnyValue, Document, Holds, Names, Rows, Text, Value, Values, checked, refusal
+from geocontact.io.documents import (
+    AnyValue,
+    Document,
+    FileName,
+    Holds,
+    Names,
+    Rows,
+    Text,
+    Value,
+    Values,
+    checked,
+    refusal,
+)
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
 
@@ -140,13 +166,34 @@ class ListedTrial(Document):
         return self.__pydantic_extra__
 
 
+class StepSettings(Document):
+    """A step before the analysis.
+
+    Parameters
+    ----------
+    analysis
+        The analysis of the step as its command is typed.
+    options
+        Options by name; texts may hold `{name}`, and `{STEP:FILE}` of an earlier step.
+    per
+        Names of which each combination of values is evaluated once, `[]` for once over all; each trial by default.
+    where
+        Values that trials of this step have; all trials by default.
+    """
+
+    analysis: Annotated[Text, Field(examples=['"ik"'])]
+    options: Mapping[str, Any] = {}
+    per: Names | None = None
+    where: Mapping[str, Values] = {}
+
+
 class StudyFile(Document):
     """Everything in the description.
 
     Parameters
     ----------
     analysis
-        The analysis as its command is typed.
+        The analysis as its command is typed; with steps the last of them, which tables and statistics are about.
     title
         Heading of the page; the file's name by default.
     options
@@ -163,6 +210,16 @@ class StudyFile(Document):
         Options with the values that they take in turn, all combinations.
     leave_out
         Trials that are not evaluated: those that have all of these values.
+    steps
+        Analyses before it, by name.
+    per
+        Names of which each combination of values is evaluated once, `[]` for once over all; each trial by default.
+    where
+        Values that trials of the analysis have; all trials by default.
+    pages
+        Whether each trial has a page.
+    figures
+        Whether each trial has figures (`.png`, `.svg`).
     summary
         What the page and the statistics are about.
     surface
@@ -178,6 +235,11 @@ class StudyFile(Document):
     vary: Mapping[str, Values] = {}
     sweep: Mapping[str, Values] = {}
     leave_out: Annotated[tuple[dict[str, AnyValue], ...], Rows] = ()
+    steps: Mapping[FileName, StepSettings] = {}
+    per: Names | None = None
+    where: Mapping[str, Values] = {}
+    pages: bool = True
+    figures: bool = True
     summary: SummarySettings = SummarySettings()
     surface: SurfaceSettings | None = None
     _path: Path = PrivateAttr()
@@ -197,6 +259,23 @@ class StudyFile(Document):
         return self.path.resolve().parent
 
     @property
+    def own(self) -> StepSettings:
+        """The analysis as the last step."""
+        return StepSettings.model_construct(
+            analysis=self.analysis, options=self.options, per=self.per, where=self.where
+        )
+
+    @property
+    def own_name(self) -> str:
+        """Name of the analysis as a step: its command with _ for what no name has."""
+        return re.sub(r"[^A-Za-z0-9_-]+", "_", self.analysis)
+
+    @property
+    def all_steps(self) -> dict[str, StepSettings]:
+        """Steps by name, the analysis last."""
+        return {**self.steps, self.own_name: self.own}
+
+    @property
     def heading(self) -> str:
         """The title, else the file's name."""
         return self.title or self.path.stem.replace("_", " ")
@@ -208,6 +287,13 @@ class StudyFile(Document):
             if differing:
                 what = f"{min(differing)!r:.60} is not in all of them"
                 raise refusal(what, "give every trial the same names", at=("trials", k))
+        return self
+
+    @model_validator(mode="after")
+    def _require_a_name(self) -> StudyFile:
+        if self.own_name in self.steps:
+            what = "has the name of the study's own analysis"
+            raise refusal(what, "choose another name", at=("steps", self.own_name, ""))
         return self
 
     @model_validator(mode="after")

@@ -8,7 +8,7 @@ import platform
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -92,6 +92,11 @@ def _lock(descriptor: int) -> bool:
     return True
 
 
+def _moved(file: str, now: Mapping[str, str]) -> str:
+    """The path of a file with the folder of earlier results that it would come from now."""
+    return next((new + file[len(old) :] for old, new in now.items() if file.startswith(f"{old}/")), file)
+
+
 @dataclass(frozen=True)
 class Store:
     """Results by address below one folder.
@@ -121,20 +126,42 @@ class Store:
                 raise InputError(file, "tables", what, "remove that folder: the trial is evaluated anew")
         return found
 
-    def holds(self, address: str, home: Path, digests: Digests) -> bool:
-        """Whether results are there, and all files that they were made of are as they were."""
+    def holds(self, address: str, home: Path, digests: Digests, taken: Sequence[str] = ()) -> bool:
+        """Whether results are there, and all files that they were made of are as they were.
+
+        `taken` are the folders of earlier results that they would be made of now, in the order of `address_of`: their
+        files stand for those of the folders that these results were made of.
+        """
         place = self.place(address)
         if not (place / TOLD).is_file():
             return False
         try:
+            before = read_json(place / TOLD).get("from", [])
+            now = dict(zip(before, taken, strict=True))
             inputs = read_json(place / RUN)["inputs"]
             return all(
-                digests.of(home / each["file"]) == each["sha256"]
+                digests.of(home / _moved(str(each["file"]), now)) == each["sha256"]
                 for each in inputs
                 if "sha256" in each and "file" in each
             )
         except (OSError, ValueError, KeyError, TypeError):
             return False
+
+    def seconds(self, address: str) -> float | None:
+        """How long the results took [s]; None where that is not known."""
+        try:
+            return float(read_json(self.place(address) / RUN)["seconds"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+
+    def addresses(self) -> list[str]:
+        """Addresses that have results, in order of the alphabet."""
+        there = self.folder.iterdir() if self.folder.is_dir() else ()
+        return sorted(each.name for each in there if (each / TOLD).is_file())
+
+    def size(self, address: str) -> int:
+        """Bytes of results."""
+        return sum(file.stat().st_size for file in self.place(address).rglob("*") if file.is_file())
 
     def keep(self, draft: Path, address: str) -> None:
         """Put finished results in their place; where others finished them meanwhile, theirs stay."""

@@ -35,7 +35,7 @@ from geocontact.io.recordings.spheres import read_law
 from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.study.address import as_typed, options_of
 from geocontact.study.description import read_study_file
-from geocontact.study.trials import trials_of
+from geocontact.study.steps import runs_of
 
 Place = tuple[str | int, ...]
 
@@ -43,9 +43,9 @@ Place = tuple[str | int, ...]
 def cohort(path: Path) -> None:
     """Trials of a study and their options, as they are read before any is evaluated."""
     study = read_study_file(path)
-    for trial in trials_of(study):
+    for one in runs_of(study):
         with chdir(study.home):
-            options_of(job_named(study.analysis).options, trial.options)
+            options_of(job_named(one.analysis).options, one.trial.options)
 
 
 CASE = """format = 1
