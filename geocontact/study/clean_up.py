@@ -19,23 +19,30 @@ MB = 1e6
 def note_asked(store: Store, study: Path, addresses: Collection[str]) -> None:
     """Keep which results a description asks for."""
     file = store.folder / ASKED
-    try:
-        own = Path(os.path.relpath(study.resolve(), store.folder)).as_posix()
-    except ValueError:  # on another drive
-        own = study.resolve().as_posix()
-    known = {**_asked(store), own: sorted({*addresses} - {""})}
+    known = {**_asked(store), _named(store, study): sorted({*addresses} - {""})}
     draft = file.with_name(f"{ASKED}.part")
     draft.write_text(json.dumps(known, indent=1) + "\n", encoding="utf-8")
     os.replace(draft, file)
 
 
-def not_asked_for(store: Store, addresses: Collection[str]) -> dict[str, int]:
-    """Bytes of the results that no description that is still there asks for, by address; `addresses` are asked for."""
+def not_asked_for(store: Store, study: Path, addresses: Collection[str]) -> dict[str, int]:
+    """Bytes of the results that no description that is still there asks for, by address.
+
+    This one asks for `addresses`, each other one for what it asked for when it was run last.
+    """
     wanted = {*addresses}
-    for study, asked in _asked(store).items():
-        if (store.folder / study).is_file():
+    for other, asked in _asked(store).items():
+        if other != _named(store, study) and (store.folder / other).is_file():
             wanted |= {*asked}
     return {each: store.size(each) for each in store.addresses() if each not in wanted}
+
+
+def _named(store: Store, study: Path) -> str:
+    """Path of a description from the results."""
+    try:
+        return Path(os.path.relpath(study.resolve(), store.folder)).as_posix()
+    except ValueError:  # on another drive
+        return study.resolve().as_posix()
 
 
 def size_in_words(sizes: Collection[int]) -> str:

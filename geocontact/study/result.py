@@ -371,11 +371,12 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
         say(one.words)
     for one in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
         listener().fail(f"{one.run.step} of {one.trial.name}: {one.outcome.line if one.outcome else ''}")
-    known = [one.seconds for one in states if one.missing and one.seconds is not None]
-    if len(known) > 1 and len(known) == sum(one.missing > 0 for one in states):
+    times = [one.seconds for one in states if one.missing]
+    if len(times) > 1 and None not in times:
         total = sum(one.missing * (one.seconds or 0.0) for one in states)
         say(f"all of it: about {in_words(total)} of work, shared by the workers")
-    if left := not_asked_for(store, {one.address for one in plan.evaluations}):
+    known = all(one.state == DONE for one in plan.evaluations)  # else some may still be those of later steps
+    if known and (left := not_asked_for(store, planned.file.path, {one.address for one in plan.evaluations})):
         say(f"no description asks for {size_in_words(left.values())}; `clean_up` removes them")
     earlier, trials = _studied(plan, planned.file.own_name)
     return CohortResult(
@@ -444,7 +445,7 @@ def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
     if any(one.state != DONE for one in plan.evaluations):
         reserve("nothing was removed: evaluations without results may still need what is there")
         return
-    left = not_asked_for(store, addresses)
+    left = not_asked_for(store, o.study, addresses)
     for each in left:
         store.forget(each)
     say(f"removed what no description asks for: {size_in_words(left.values())}")
