@@ -93,7 +93,7 @@ class Sources:
             if name in found or name in APART or file is None:
                 continue
             found[name] = file
-            told = _read(file, name, file.name == "__init__.py")
+            told = _read(file, name, file.stat().st_mtime_ns)
             waiting += [each for each in (*_parents(name), *told.texts) if each.partition(".")[0] in own]
             waiting += [each for each in told.imports if each.partition(".")[0] in own]
             waiting += self._all_of(READ_FROM_FILES.get(name, ""))
@@ -136,8 +136,8 @@ def _data(modules: dict[str, Path]) -> dict[str, Path]:
 
 
 @cache
-def _read(file: Path, name: str, package: bool) -> _Module:
-    """Read a source; what only type checkers see does not count."""
+def _read(file: Path, name: str, changed: int) -> _Module:
+    """Read a source that was changed at that time; what only type checkers see does not count."""
     imports: set[str] = set()
     texts: set[str] = set()
     waiting: list[ast.AST] = [ast.parse(file.read_bytes())]
@@ -149,7 +149,7 @@ def _read(file: Path, name: str, package: bool) -> _Module:
         if isinstance(node, ast.Import):
             imports |= {each.name for each in node.names}
         elif isinstance(node, ast.ImportFrom):
-            home = _absolute(node, name, package)
+            home = _absolute(node, name, file.name == "__init__.py")
             imports |= {home, *(f"{home}.{each.name}" for each in node.names)}
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
             texts |= set(_named(node.value, name))

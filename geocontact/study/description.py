@@ -235,7 +235,7 @@ class StudyFile(Document):
     vary: Mapping[str, Values] = {}
     sweep: Mapping[str, Values] = {}
     leave_out: Annotated[tuple[dict[str, AnyValue], ...], Rows] = ()
-    steps: Mapping[FileName, StepSettings] = {}
+    steps: dict[FileName, StepSettings] = Field(default_factory=dict)
     per: Names | None = None
     where: Mapping[str, Values] = {}
     pages: bool = True
@@ -243,6 +243,7 @@ class StudyFile(Document):
     summary: SummarySettings = SummarySettings()
     surface: SurfaceSettings | None = None
     _path: Path = PrivateAttr()
+    _folder: Path | None = PrivateAttr(None)
 
     def model_post_init(self, context: Any) -> None:
         """Take the path of the file."""
@@ -256,7 +257,12 @@ class StudyFile(Document):
     @property
     def home(self) -> Path:
         """Folder that paths in it start from."""
-        return self.path.resolve().parent
+        return self.path.resolve().parent if self._folder is None else self._folder.resolve()
+
+    def within(self, folder: Path | None) -> StudyFile:
+        """The same with paths from another folder, where one is named."""
+        self._folder = folder
+        return self
 
     @property
     def own(self) -> StepSettings:
@@ -304,11 +310,11 @@ class StudyFile(Document):
         return self
 
 
-def read_study_file(path: Path) -> StudyFile:
-    """The description; InputError for what is missing or cannot be."""
+def read_study_file(path: Path, folder: Path | None = None) -> StudyFile:
+    """The description, with paths from its own folder or from another; InputError for what is missing or cannot be."""
     content: Mapping[str, Any] = toml_of(path, LARGEST)
     for place, value in numbers_in(content):
         if not math.isfinite(value):
             raise InputError(path, place, f"is {value}", "write a number")
     study: StudyFile = checked(path, StudyFile, content)
-    return study
+    return study.within(folder)

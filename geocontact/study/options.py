@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import Requires, Spelled, Texts, Typed
+from geocontact.analyses.frame.marks import Missing, Requires, Spelled, Texts, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
@@ -25,6 +25,8 @@ class CohortOptions(Options):
     ----------
     study
         Description of the study (.toml): the analysis, its options, and the differences between its trials.
+    folder
+        Folder that paths in it start from; that of the description by default.
 
     Gait cycles
     -----------
@@ -77,6 +79,7 @@ class CohortOptions(Options):
 
     study: Path
     _: KW_ONLY
+    folder: Annotated[Path | None, Missing("there is no such folder")] = None
     events: Path | None = None
     cycle_side: Annotated[Side | None, Requires("events")] = None
     part: Annotated[CyclePart | None, Requires("events")] = None

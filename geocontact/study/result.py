@@ -92,10 +92,10 @@ class PlannedStudy:
 
 def read(o: CohortOptions) -> PlannedStudy:
     """Description and trials; files of the trials are read by whoever evaluates them."""
-    study = read_study_file(o.study)
+    study = read_study_file(o.study, o.folder)
     add_input("study", o.study, analysis=study.analysis)
     if study.table:
-        add_input("table", o.study.parent / study.table)
+        add_input("table", o.study.parent / study.table if o.folder is None else o.folder / study.table)
     for name, asked in (("from_step", o.from_step), ("forget", o.forget)):
         if asked is not None and asked not in study.all_steps:
             raise InputError(o.study, f"`{name}`", f"no step is {asked!r}", f"there are {', '.join(study.all_steps)}")

@@ -99,10 +99,20 @@ def _in_order(study: StudyFile) -> list[str]:
         before[name] = list(taken)
     before[study.own_name] = [*study.steps]
     try:
-        return list(TopologicalSorter(before).static_order())
+        TopologicalSorter(before).prepare()
     except CycleError as error:
         circle = " → ".join(reversed(error.args[1]))
         raise InputError(study.path, "[steps]", f"{circle} go in a circle", "take from earlier steps only") from error
+    found: dict[str, None] = {}
+
+    def visit(name: str) -> None:
+        for each in before[name] if name not in found else ():
+            visit(each)
+        found[name] = None
+
+    for name in steps:
+        visit(name)
+    return list(found)
 
 
 def _groups(

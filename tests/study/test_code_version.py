@@ -45,9 +45,7 @@ def changed(package: Path, name: str) -> set[str]:
     content = file.read_bytes()
     file.write_bytes(content + b"\n# changed\n")
     try:
-        copy = package.parent / file.stem / "geocontact"  # sources that were read are remembered by their path
-        shutil.copytree(package, copy)
-        return {each for each, version in versions(copy).items() if version != before[each]}
+        return {each for each, version in versions(package).items() if version != before[each]}
     finally:
         file.write_bytes(content)
 
