@@ -172,13 +172,13 @@ class StepSettings(Document):
     Parameters
     ----------
     analysis
-        The analysis of the step as its command is typed.
+        As its command is typed.
     options
-        Options by name; texts may hold `{name}`, and `{STEP:FILE}` of an earlier step.
+        By name; texts may hold `{name}`, and `{STEP:FILE}` of an earlier step.
     per
-        Names of which each combination of values is evaluated once, `[]` for once over all; each trial by default.
+        Names: one evaluation for each combination of their values, `[]` for one over all; by default for each trial.
     where
-        Values that trials of this step have; all trials by default.
+        Values that its trials have; all trials by default.
     """
 
     analysis: Annotated[Text, Field(examples=['"ik"'])]
@@ -193,7 +193,7 @@ class StudyFile(Document):
     Parameters
     ----------
     analysis
-        The analysis as its command is typed; with steps the last of them, which tables and statistics are about.
+        The analysis as its command is typed; of several steps the last one.
     title
         Heading of the page; the file's name by default.
     options
@@ -212,14 +212,10 @@ class StudyFile(Document):
         Trials that are not evaluated: those that have all of these values.
     steps
         Analyses before it, by name.
-    per
-        Names of which each combination of values is evaluated once, `[]` for once over all; each trial by default.
-    where
-        Values that trials of the analysis have; all trials by default.
-    pages
-        Whether each trial has a page.
-    figures
-        Whether each trial has figures (`.png`, `.svg`).
+    per, where
+        As of a step.
+    pages, figures
+        Whether each trial has them.
     summary
         What the page and the statistics are about.
     surface

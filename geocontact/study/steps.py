@@ -147,7 +147,10 @@ def _run(
         raise InputError(study.path, "[[trials]]", what, "give them once, in [options]")
     place = _place(study, name)
     options = {key: filled(study, key, value, given, place) for key, value in {**step.options, **own[0]}.items()}
-    swept = {} if name != study.own_name else dict(group[0].swept)
+    swept = {} if name != study.own_name else {each: given[each] for each in group[0].swept}
+    apart = next((each for each, value in swept.items() if isinstance(value, Several)), None)
+    if apart is not None:
+        raise InputError(study.path, f"[sweep] {apart}", "differs within one evaluation", f"add {apart!r} to `per`")
     twice = next((each for each in swept if each in options), None)
     if twice is not None:
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")

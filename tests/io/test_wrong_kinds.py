@@ -96,6 +96,14 @@ files = "{subject}_{condition}.csv"
 table = "people.csv"
 trials = [{ subject = "P1", walk = 3, options = { split = "z", side = "left" } }, { subject = "P2", walk = 4 }]
 leave_out = [{ subject = "P2", condition = "fast" }]
+per = ["subject", "condition", "threshold"]
+where = { condition = ["slow"] }
+pages = false
+figures = false
+steps.ik.analysis = "ik"
+steps.ik.per = ["subject"]
+steps.ik.where = { condition = ["slow"] }
+steps.ik.options = { markers = "a.csv", model = "a.osim" }
 [options]
 moving = "a.stl"
 fixed = "a.stl"
@@ -123,8 +131,9 @@ at = [0, 50, 100]
             r"trials \d+ (subject|walk)": FREE,
             r"leave_out \d+ \w+": FREE,
             r"(vary|sweep) \w+ \d+": FREE,
+            r"(steps ik )?where \w+ \d+": FREE,
             "summary where .*": FREE,
-            r"(options|trials \d+ options) \w+": (*FREE, "list", "table", "date"),
+            r"(options|trials \d+ options|steps ik options) \w+": (*FREE, "list", "table", "date"),
             r"options motion": (*FREE, "list"),
         },
     ),
