@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import platform
+import re
 import shutil
 import sys
 import time
@@ -17,11 +18,12 @@ from typing import Any
 from geocontact.analyses.frame.folder import RUN, is_inside
 from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import read_json
-from geocontact.study.address import Digests
+from geocontact.study.address import LENGTH, Digests
 
 LOCK = ".lock"
 TAKEN = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 LARGEST_TOLD = 200
+ADDRESS = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
 BEHIND = 1 << 20
 """Byte that is locked on Windows, where others cannot read what is locked: behind what is told."""
 RESULTS = "results"
@@ -157,7 +159,9 @@ class Store:
     def addresses(self) -> list[str]:
         """Addresses that have results, in order of the alphabet."""
         there = self.folder.iterdir() if self.folder.is_dir() else ()
-        return sorted(each.name for each in there if (each / TOLD).is_file())
+        return sorted(
+            p.name for p in there if ADDRESS.fullmatch(p.name) and not p.is_symlink() and (p / TOLD).is_file()
+        )
 
     def size(self, address: str) -> int:
         """Bytes of results."""
