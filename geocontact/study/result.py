@@ -29,25 +29,24 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
-from geocontact.analyses.frame.words import counted
 from geocontact.analyses.motion.gait_cycles import cutting_of
 from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.clean_up import not_asked_for, note_asked, size_in_words
-from geocontact.study.curves import STEPS, StudyCurves, curves_of, require_summary
+from geocontact.study.curves import StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.graph import StepState, graph_picture, in_words, step_states
 from geocontact.study.options import CohortOptions
 from geocontact.study.plan import LEFT, PLANNED, WITHOUT, Evaluation, StudyPlan
+from geocontact.study.selection import MANIFEST, asked_for
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.steps import StepRun, runs_of
 from geocontact.study.store import RESULTS, Store
 from geocontact.study.surface import (
     SurfaceValues,
     surface_difference_table,
-    surface_differences,
     surface_fields,
     surface_table,
     surface_values,
@@ -55,15 +54,15 @@ from geocontact.study.surface import (
 from geocontact.study.tables import (
     agreement_table,
     difference_table,
-    differences_of,
     ensemble_table,
     latex,
     means_by_condition,
     outlier_table,
     value_table,
 )
-from geocontact.study.trial_run import DONE, FAILED, SET_ASIDE, WRONG, TrialOutcome
-from geocontact.study.trials import CohortTrial, trials_of
+from geocontact.study.trial_run import DONE, FAILED, WRONG, TrialOutcome
+from geocontact.study.trials import CohortTrial
+from geocontact.study.words import say_differences, say_how_many, say_surface
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
@@ -71,13 +70,11 @@ if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
-MANIFEST = "trials"
 TABLES = "tables"
 """Folder of the tables of all trials together, with steps a folder for each below it."""
 PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
-LEVEL = 0.05
 LEAVE_OUT = "their numbers are in tables and means: mend them, or name them in `[[leave_out]]`"
 
 
@@ -294,7 +291,7 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     scratch = Scratch() if place is None else None
     out = place if place is not None else scratch.folder if scratch is not None else Path()
     store = Store(out.resolve() / RESULTS)
-    plan = StudyPlan(planned.file, planned.runs, store, o, _asked(planned, o, out))
+    plan = StudyPlan(planned.file, planned.runs, store, o, asked_for(planned.file, o, out))
     if o.dry_run:
         plan.look()
         return _dry(planned, plan, store, scratch)
@@ -316,29 +313,6 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
         scratch=scratch,
         held=kept,
     )
-
-
-def _asked(planned: PlannedStudy, o: CohortOptions, out: Path) -> Callable[[StepRun], bool]:
-    """Which evaluations without results are made."""
-    chosen = [each.partition("=")[::2] for each in o.only]
-    trials = trials_of(planned.file)
-    failed: set[tuple[str, str]] | None = None
-    if o.redo_failed:
-        file = out / f"{MANIFEST}.csv"
-        if not file.is_file():
-            raise InputError(file, "`redo_failed`", "there is no such file", "run the study without it first")
-        rows = pd.read_csv(file, dtype=str, keep_default_na=False).to_dict("records")
-        failed = {
-            (row.get("step", planned.file.own_name), row["name"])
-            for row in rows
-            if row["state"] in (WRONG, FAILED, SET_ASIDE, WITHOUT)
-        }
-
-    def asked(one: StepRun) -> bool:
-        of = any(all(str(trials[k].factors.get(name)) == value for name, value in chosen) for k in one.trials)
-        return of and (failed is None or (one.step, one.trial.name) in failed)
-
-    return asked
 
 
 def _checked(planned: PlannedStudy, plan: StudyPlan, store: Store) -> Callable[[Evaluation], None]:
@@ -402,38 +376,25 @@ def _looked_at(
         if one.outcome.state not in (DONE, LEFT, WITHOUT):
             of = f"{one.step} of " if earlier else ""
             listener().fail(f"{of}{one.trial.name}: {one.outcome.line}")
-    for one in plan.evaluations if earlier else ():
-        if one.run.step != planned.file.own_name and one is _first(plan, one.run.step):
-            say(_counted(plan, one.run.step, planned.file.steps[one.run.step].analysis))
     done = [one for one in trials if one.outcome.state == DONE]
-    if not done:
-        raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
+    if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
+        count = len(trials) + len(earlier)
+        raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
     note("trials", {"all": len(trials), "done": len(done)})
-    say(_counted(plan, planned.file.own_name, planned.file.analysis))
+    say_how_many(plan.evaluations)
     _clean(plan, store, o)
     told = [(one.trial.name, store.told(one.address)) for one in (*earlier, *trials) if one.outcome.state == DONE]
     judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
     reserve_of_several([(name, each["warnings"]) for name, each in told])
-    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store, planned.cutting)
-    surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
+    kept = [(one.trial, one.address) for one in done]
+    curves = curves_of(planned.file, kept, store, planned.cutting) if kept else ()
+    surface = surface_values(planned.file, kept, store)
     for line in means_by_condition(curves):
         say(line)
-    _report_conditions(curves)
+    say_differences(curves)
     if surface is not None:
-        _report_surface(surface)
+        say_surface(surface)
     return (earlier, trials), curves, surface
-
-
-def _first(plan: StudyPlan, step: str) -> Evaluation:
-    return next(one for one in plan.evaluations if one.run.step == step)
-
-
-def _counted(plan: StudyPlan, step: str, analysis: str) -> str:
-    """ "3 of 4 trials of area have results, 1 of them new"."""
-    own = [one for one in plan.evaluations if one.run.step == step]
-    done = [one for one in own if one.state == DONE]
-    new = len({one.address for one in done} - {one.address for one in done if one.kept})
-    return f"{len(done)} of {counted(len(own), 'trial')} of {analysis} have results, {new} of them new"
 
 
 def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
@@ -449,36 +410,6 @@ def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
     for each in left:
         store.forget(each)
     say(f"removed what no description asks for: {size_in_words(left.values())}")
-
-
-def _report_conditions(curves: tuple[StudyCurves, ...]) -> None:
-    """What conditions differ in, and which trials lie apart."""
-    for one, first, second, found in differences_of(curves):
-        name = f"{split_header(one.column)[0]}, {first} against {second}"
-        where = STEPS[found.p <= LEVEL]
-        subjects = counted(found.subjects, "subject")
-        if found.smallest > LEVEL:
-            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
-        elif len(where):
-            say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
-        else:
-            say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
-    apart = outlier_table(curves)
-    for name in dict.fromkeys(apart["name"]):
-        reserve(f"{name} lies apart from the other trials of its condition")
-
-
-def _report_surface(surface: SurfaceValues) -> None:
-    """On how many points conditions differ."""
-    for first, second, there, found in surface_differences(surface):
-        name = f"distance at {len(surface.points)} particles, {first} against {second}"
-        subjects = counted(found.subjects, "subject")
-        if found.smallest > LEVEL:
-            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
-            continue
-        shown = np.zeros(there.shape, bool)
-        shown[there] = found.p <= LEVEL
-        say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
 
 
 cohort = Job("cohort", CohortOptions, read, run)

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-import pandas as pd
 import pytest
 
 from geocontact.study.description import read_study_file
 from geocontact.study.steps import runs_of
-from tests.cli.calls import call, done
-from tests.study.quick import told
 
 ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "docs" / "how-to" / "studies"
