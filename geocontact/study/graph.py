@@ -32,7 +32,7 @@ class StepState:
     there, missing, others
         Evaluations with results, those that are to be made, and those that cannot be or are not asked for.
     seconds
-        Mean time of those whose results are there [s]; None where there are none.
+        Mean time of those whose results are there, else of earlier results of the step [s]; None without any.
     """
 
     name: str
@@ -72,7 +72,8 @@ def step_states(evaluations: Sequence[Evaluation], store: Store) -> list[StepSta
         there = [one.address for one in own if one.state == DONE]
         missing = sum(one.state == PLANNED for one in own)
         takes = tuple(dict.fromkeys(each for one in own for each in one.run.takes))
-        times = [time for each in there[:ASKED] if (time := store.seconds(each)) is not None]
+        timed = there[:ASKED] or (store.of_step(name, ASKED) if missing else [])
+        times = [time for each in timed if (time := store.seconds(each)) is not None]
         seconds = sum(times) / len(times) if times else None
         others = len(own) - len(there) - missing
         found.append(StepState(name, own[0].run.analysis, takes, len(there), missing, others, seconds))

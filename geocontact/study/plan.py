@@ -202,6 +202,7 @@ class StudyPlan:
             self._sources,
             self._run_id,
             self._o.limit,
+            one.run.step,
             taken,
             self._without,
         )

@@ -156,6 +156,17 @@ class Store:
         except (OSError, ValueError, KeyError, TypeError):
             return None
 
+    def of_step(self, name: str, most: int) -> list[str]:
+        """Addresses of at most so many results of a step, whatever they were made of."""
+        found = []
+        for each in self.addresses():
+            with suppress(OSError, ValueError, TypeError, AttributeError):
+                if read_json(self.place(each) / TOLD).get("step") == name:
+                    found.append(each)
+            if len(found) == most:
+                break
+        return found
+
     def addresses(self) -> list[str]:
         """Addresses that have results, in order of the alphabet."""
         there = self.folder.iterdir() if self.folder.is_dir() else ()

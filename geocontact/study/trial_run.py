@@ -58,6 +58,8 @@ class TrialTask:
         Marks one run of the study.
     limit
         Longest that the trial may take [s], twice that at the second try; None without a limit.
+    step
+        Name of its step in the study.
     taken
         Folders of earlier results that options name, as paths from `home`.
     without
@@ -72,6 +74,7 @@ class TrialTask:
     sources: str
     run: str
     limit: float | None = None
+    step: str = ""
     taken: tuple[str, ...] = ()
     without: frozenset[Part] = frozenset()
 
@@ -168,6 +171,7 @@ def _evaluate(task: TrialTask, out: Path) -> None:
     result, _ = execute(job, options, out, call)
     told = {
         "analysis": task.analysis,
+        "step": task.step,
         "from": list(task.taken),
         "tables": [name for name, table in result.tables().items() if len(table.columns)],
         "sentences": list(result.sentences),
