@@ -60,7 +60,7 @@ def test_the_samples_from_markers_to_a_modulus(tmp_path: Path) -> None:
     law = 4.0 / 3.0 * (1e-6 * area["area_fixed [mm^2]"].to_numpy() / np.pi) ** 1.5 / 0.032
     wanted = float((law * force).sum() / (law * law).sum())
     found = json.loads((folder["modulus"] / "modulus.json").read_text(encoding="utf-8"))
-    assert found["E_star_Pa"] == pytest.approx(wanted, rel=1e-3)
+    assert found["E_star_Pa"] == pytest.approx(wanted, rel=1e-6)
 
 
 @pytest.mark.slow
