@@ -104,6 +104,7 @@ class StudyPlan:
         self._at: dict[str, list[int]] = {}
         self._became: dict[str, TrialOutcome] = {}
         self._named: list[str] = []
+        self._ended: list[int] = []
         self._run_id = secrets.token_hex(8)
         self._without: frozenset[Part] = frozenset(
             name for name, wanted in (("pages", study.pages), ("figures", study.figures)) if not wanted
@@ -173,6 +174,7 @@ class StudyPlan:
 
     def _end(self, k: int, outcome: TrialOutcome) -> None:
         self.evaluations[k].outcome = outcome
+        self._ended.append(k)
         for each in self._users.get(k, ()):
             self._settle(each)
 
@@ -246,7 +248,8 @@ class StudyPlan:
                 if outcome.state == STOPPED:
                     line = f"{outcome.line}; finished trials stay: run it again when that is mended"
                     raise OSError(errno.EIO, line, str(task.store.folder))
-                before, named = {id(one) for one in self.evaluations if one.outcome is None}, len(self._named)
+                named = len(self._named)
+                self._ended.clear()
                 self._became[task.address] = outcome
                 for k in self._at.pop(task.address):
                     self._end(k, outcome)
@@ -255,7 +258,7 @@ class StudyPlan:
                 spent += outcome.seconds
                 if outcome.state == DONE:
                     is_kept(task.store.folder)
-                for one in (each for each in self.evaluations if id(each) in before and each.outcome is not None):
+                for one in (self.evaluations[k] for k in self._ended):
                     step()
                     if one.state == DONE:
                         after(one)

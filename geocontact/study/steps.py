@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 from pathlib import PurePosixPath
@@ -24,6 +24,8 @@ TAKEN = re.compile(r"\{([A-Za-z0-9_-]+):([^{}:]+)\}")
 """`{STEP:FILE}`."""
 STEP = re.compile(r"\{([A-Za-z0-9_-]+):")
 """The step of it, before names in the file's are filled in."""
+_Places = dict[Hashable, int]
+"""Places of a step's evaluations by what `_key` says of trials."""
 
 
 @dataclass(frozen=True)
@@ -55,14 +57,15 @@ def runs_of(study: StudyFile) -> list[StepRun]:
     """All evaluations of all steps: each after those that it takes from, those of the study's own analysis last."""
     trials = trials_of(study)
     found: list[StepRun] = []
+    places: dict[str, _Places] = {}
     for name in _in_order(study):
         step = study.all_steps[name]
         own = [_run(study, name, step, *group) for group in _groups(study, name, step, trials)]
         twice = next((each for each, count in Counter(run.trial.name for run in own).items() if count > 1), None)
         if twice is not None:
             raise InputError(study.path, "", f"two trials are {twice!r}", "name what they differ in, as in {trial}")
-        earlier = [(k, run, study.all_steps[run.step]) for k, run in enumerate(found)]
-        found += [replace(run, takes=_takes(study, run, step, earlier, trials)) for run in own]
+        places[name] = {_key(k, step, trials): len(found) + at for at, run in enumerate(own) for k in run.trials}
+        found += [replace(run, takes=_takes(study, run, step, places, trials)) for run in own]
     return found
 
 
@@ -125,11 +128,10 @@ def _groups(
         if odd is not None:
             known = ", ".join(trials[0].factors) or "none"
             raise InputError(study.path, f"{place}{key}", f"no trial has {odd!r}", f"names are {known}")
-    groups: dict[object, list[int]] = {}
+    groups: dict[Hashable, list[int]] = {}
     for k, trial in enumerate(trials):
         if all(str(trial.factors[each]) in map(str, values) for each, values in step.where.items()):
-            key = k if step.per is None else tuple(str(trial.factors[each]) for each in step.per)
-            groups.setdefault(key, []).append(k)
+            groups.setdefault(_key(k, step, trials), []).append(k)
     if not groups:
         raise InputError(study.path, f"{place}where", "no trial has these values", "see [vary], files and table")
     return [(own, [trials[k] for k in own]) for own in groups.values()]
@@ -166,31 +168,23 @@ def _shared(values: Sequence[Value]) -> Value | Several:
 
 
 def _takes(
-    study: StudyFile,
-    run: StepRun,
-    step: StepSettings,
-    earlier: Sequence[tuple[int, StepRun, StepSettings]],
-    trials: Sequence[StudyTrial],
+    study: StudyFile, run: StepRun, step: StepSettings, places: Mapping[str, _Places], trials: Sequence[StudyTrial]
 ) -> dict[str, tuple[int, ...]]:
     """Evaluations of other steps that an evaluation takes from."""
     found = {}
     own = [trials[k].options for k in sorted(run.trials)] if run.step == study.own_name else []
     for name, option in taken_by(step, own).items():
-        these = tuple(k for k, other, settings in earlier if other.step == name and _fits(run, other, settings, trials))
+        these = {places[name].get(_key(k, study.steps[name], trials)) for k in run.trials} - {None}
         if not these:
             place = f"{_place(study, run.step)} {option}"
             raise InputError(study.path, place, f"{name} is not evaluated for {run.trial.name}", "see its `where`")
-        found[name] = these
+        found[name] = tuple(sorted(k for k in these if k is not None))
     return found
 
 
-def _fits(run: StepRun, other: StepRun, settings: StepSettings, trials: Sequence[StudyTrial]) -> bool:
-    """Whether evaluations belong together: by a trial, or by the values of the names that the other one is of."""
-    if settings.per is None:
-        return bool(run.trials & other.trials)
-    of = {tuple(str(trials[k].factors[name]) for name in settings.per) for k in run.trials}
-    first = trials[min(other.trials)]
-    return tuple(str(first.factors[name]) for name in settings.per) in of
+def _key(trial: int, step: StepSettings, trials: Sequence[StudyTrial]) -> Hashable:
+    """What of a trial says to which evaluation of a step it belongs: its number, or the values that that is of."""
+    return trial if step.per is None else tuple(str(trials[trial].factors[name]) for name in step.per)
 
 
 def with_files(run: StepRun, places: Mapping[str, Sequence[str]], study: StudyFile) -> dict[str, Any]:
