@@ -42,9 +42,10 @@ def measured(file: Path, out: Path, workers: int) -> dict[str, float]:
     """One run: its CPU time with that of its workers, how many evaluations were new, overhead of each."""
     before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     command = [sys.executable, "cli.py", "cohort", str(file), "--run-simulator", "--out", str(out)]
-    told = subprocess.run(
-        [*command, "--workers", str(workers)], cwd=ROOT, check=True, capture_output=True, encoding="utf-8"
-    )
+    command += ["--workers", str(workers)]
+    told = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, encoding="utf-8")
+    if told.returncode:
+        raise SystemExit(f"the study ended with {told.returncode}")
     after, whole = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - started
     results = json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

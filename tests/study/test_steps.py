@@ -85,12 +85,15 @@ def test_equal_files_lead_to_the_same_results_however_they_came_about(tmp_path: 
     assert sum(new(still)) == 0, "results whose source was removed are still those of equal files"
 
 
-def test_a_study_that_was_moved_with_its_results_has_them_all(tmp_path: Path, scheduler: str) -> None:
-    old, moved = tmp_path / "old", tmp_path / "moved"
+def test_a_study_and_results_that_were_moved_apart_are_all_there(tmp_path: Path, scheduler: str) -> None:
+    """Earlier results have other paths from the study then: they count by content."""
+    old, moved, out = tmp_path / "old", tmp_path / "moved", tmp_path / "elsewhere" / "results_of_it"
     old.mkdir()
+    out.parent.mkdir()
     cohort(chain(old, NUMBERS), old / "out", scheduler)
+    shutil.move(old / "out", out)
     shutil.move(old, moved)
-    assert set(new(cohort(moved / "study.toml", moved / "out", scheduler))) == {0}
+    assert set(new(cohort(moved / "study.toml", out, scheduler))) == {0}
 
 
 def test_a_dry_run_says_what_a_run_would_evaluate_and_writes_nothing(tmp_path: Path, scheduler: str) -> None:
