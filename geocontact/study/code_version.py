@@ -46,7 +46,7 @@ class _Module:
     texts: frozenset[str]
 
 
-class Sources:
+class CodeSources:
     """The sources of packages.
 
     Parameters
@@ -177,7 +177,7 @@ def _named(text: str, name: str) -> Iterator[str]:
 @cache
 def code_version(module: str) -> dict[str, object]:
     """Digest of the code that a module can import, and the versions of its libraries."""
-    sources = Sources()
+    sources = CodeSources()
     _, libraries = sources.closure(module)
     known = packages_distributions()
     names = sorted({known.get(each, [each])[0] for each in libraries})

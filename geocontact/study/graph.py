@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ASKED = 200
 """Results of a step whose times are read, at most."""
 WIDTH, HEIGHT, GAP_X, GAP_Y, EDGE = 190, 58, 60, 18, 10
-"""Of boxes and of what lies between them, in pixels."""
+"""Sizes of boxes, the room between them and around all, in pixels."""
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable
 from pathlib import Path
 
-import pandas as pd
-
 from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import open_text
 from geocontact.study.description import StudyFile
 from geocontact.study.options import CohortOptions
 from geocontact.study.plan import WITHOUT
@@ -28,7 +28,8 @@ def asked_for(study: StudyFile, o: CohortOptions, out: Path) -> Callable[[StepRu
         file = out / f"{MANIFEST}.csv"
         if not file.is_file():
             raise InputError(file, "`redo_failed`", "there is no such file", "run the study without it first")
-        rows = pd.read_csv(file, dtype=str, keep_default_na=False).to_dict("records")
+        with open_text(file) as text:
+            rows = list(csv.DictReader(text))
         failed = {
             (row.get("step", study.own_name), row["name"])
             for row in rows

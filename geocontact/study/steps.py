@@ -18,7 +18,7 @@ from typing import Any
 from geocontact.data.errors import InputError
 from geocontact.io.documents import Value
 from geocontact.study.description import StepSettings, StudyFile
-from geocontact.study.trials import CohortTrial, Several, StudyTrial, filled, trials_of
+from geocontact.study.trials import CohortTrial, Several, TrialRow, filled, trials_of
 
 TAKEN = re.compile(r"\{([A-Za-z0-9_-]+):([^{}:]+)\}")
 """`{STEP:FILE}`."""
@@ -119,8 +119,8 @@ def _in_order(study: StudyFile) -> list[str]:
 
 
 def _groups(
-    study: StudyFile, name: str, step: StepSettings, trials: Sequence[StudyTrial]
-) -> list[tuple[Sequence[int], Sequence[StudyTrial]]]:
+    study: StudyFile, name: str, step: StepSettings, trials: Sequence[TrialRow]
+) -> list[tuple[Sequence[int], Sequence[TrialRow]]]:
     """Trials of each evaluation of a step, with their numbers."""
     place = "" if name == study.own_name else f"[steps.{name}] "
     for key, names in (("per", step.per or ()), ("where", step.where)):
@@ -137,9 +137,7 @@ def _groups(
     return [(own, [trials[k] for k in own]) for own in groups.values()]
 
 
-def _run(
-    study: StudyFile, name: str, step: StepSettings, numbers: Sequence[int], group: Sequence[StudyTrial]
-) -> StepRun:
+def _run(study: StudyFile, name: str, step: StepSettings, numbers: Sequence[int], group: Sequence[TrialRow]) -> StepRun:
     """An evaluation of trials, with what all of them have in common."""
     given = {each: _shared([trial.given[each] for trial in group]) for each in group[0].given}
     factors = {each: value for each in group[0].factors if not isinstance(value := given[each], Several)}
@@ -168,7 +166,7 @@ def _shared(values: Sequence[Value]) -> Value | Several:
 
 
 def _takes(
-    study: StudyFile, run: StepRun, step: StepSettings, places: Mapping[str, _Places], trials: Sequence[StudyTrial]
+    study: StudyFile, run: StepRun, step: StepSettings, places: Mapping[str, _Places], trials: Sequence[TrialRow]
 ) -> dict[str, tuple[int, ...]]:
     """Evaluations of other steps that an evaluation takes from."""
     found = {}
@@ -182,7 +180,7 @@ def _takes(
     return found
 
 
-def _key(trial: int, step: StepSettings, trials: Sequence[StudyTrial]) -> Hashable:
+def _key(trial: int, step: StepSettings, trials: Sequence[TrialRow]) -> Hashable:
     """What of a trial says to which evaluation of a step it belongs: its number, or the values that that is of."""
     return trial if step.per is None else tuple(str(trials[trial].factors[name]) for name in step.per)
 

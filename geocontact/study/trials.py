@@ -74,7 +74,7 @@ class CohortTrial:
 
 
 @dataclass(frozen=True)
-class StudyTrial:
+class TrialRow:
     """One trial before any step is evaluated.
 
     Parameters
@@ -103,7 +103,7 @@ class Several:
     values: tuple[Value, ...]
 
 
-def trials_of(study: StudyFile) -> list[StudyTrial]:
+def trials_of(study: StudyFile) -> list[TrialRow]:
     """All trials, files in the order of their paths, lists as they are written, the first outermost."""
     rows: list[Factors] = [{}]
     for source, more in _sources(study):
@@ -147,7 +147,7 @@ def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors
                     yield {**row, **varied}, dict(zip(study.sweep, swept, strict=True))
 
 
-def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> StudyTrial | None:
+def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> TrialRow | None:
     """The trial of a row; None where it is left out."""
     given, swept = row
     own = given.get(APART, {})
@@ -160,7 +160,7 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> StudyTrial | None:
         if all(str(factors.get(name)) == str(value) for name, value in left.items()):
             return None
     name = " ".join(str(value) for value in factors.values()) or study.path.stem
-    return StudyTrial(name, factors, {**swept, **given}, own, swept)
+    return TrialRow(name, factors, {**swept, **given}, own, swept)
 
 
 def filled(

@@ -19,7 +19,7 @@ LEVEL = 0.05
 
 
 def say_how_many(evaluations: Sequence[Evaluation]) -> None:
-    """Of each step: "3 of 4 trials of area have results, 1 of them new"."""
+    """Say of each step "3 of 4 trials of area have results, 1 of them new"."""
     for name in dict.fromkeys(one.run.step for one in evaluations):
         own = [one for one in evaluations if one.run.step == name]
         done = [one for one in own if one.state == DONE]

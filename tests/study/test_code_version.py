@@ -11,7 +11,7 @@ import pytest
 
 import geocontact
 from geocontact.analyses.catalogue import ENTRIES, entry_of
-from geocontact.study.code_version import READ_FROM_FILES, Sources, code_version
+from geocontact.study.code_version import READ_FROM_FILES, CodeSources, code_version
 
 PACKAGE = Path(geocontact.__file__).parent
 LATE = {
@@ -23,7 +23,7 @@ LATE = {
     "data/stub_names.py",
     "systems/python_model.py",
 }
-"""Sources that import by a name: from the catalogue, an option's annotation, their own texts, a stub or a case."""
+"""CodeSources that import by a name: from the catalogue, an option's annotation, their own texts, a stub or a case."""
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def copied(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def versions(package: Path) -> dict[str, str]:
     modules = {each: entry_of(each).module for each in ("area", "mat", "modulus", "ik", "gap diagnose")}
-    return {name: Sources(geocontact=package).digest(module) for name, module in modules.items()}
+    return {name: CodeSources(geocontact=package).digest(module) for name, module in modules.items()}
 
 
 def changed(package: Path, name: str) -> set[str]:
@@ -71,7 +71,7 @@ def test_a_change_makes_new_what_can_import_it(copied: Path, file: str, analyses
 
 
 def test_every_import_by_name_is_one_that_is_known() -> None:
-    """Others would have to be found by `Sources`."""
+    """Others would have to be found by `CodeSources`."""
     found = {
         file.relative_to(PACKAGE).as_posix()
         for file in PACKAGE.rglob("*.py")
@@ -110,13 +110,13 @@ def test_a_command_imports_nothing_that_its_version_leaves_out(tmp_path: Path, c
     words = [*command.split(), *CALLS[command].split(), "--out", str(tmp_path / "out")]
     subprocess.run([sys.executable, "-c", RUN, str(tmp_path / "names"), *words], check=True, timeout=300)
     loaded = {each for each in (tmp_path / "names").read_text("utf-8").split() if ".cli" not in each}
-    known, _ = Sources().closure(entry_of(command).module)
+    known, _ = CodeSources().closure(entry_of(command).module)
     assert loaded - set(known) - {"geocontact.data.version", "geocontact.analyses.catalogue"} == set()
     assert len(loaded) > 40
 
 
 def test_every_analysis_has_a_version_with_its_libraries() -> None:
-    sources = Sources()
+    sources = CodeSources()
     for entry in ENTRIES:
         found, libraries = sources.closure(entry.module)
         assert entry.module in found and f"{entry.package}.options" in found and "numpy" in libraries

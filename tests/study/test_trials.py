@@ -8,7 +8,7 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests, address_of
-from geocontact.study.code_version import Sources, code_version
+from geocontact.study.code_version import CodeSources, code_version
 from geocontact.study.description import read_study_file
 from geocontact.study.steps import runs_of
 from geocontact.study.trials import CohortTrial
@@ -105,10 +105,10 @@ def test_what_cannot_be_is_one_line(data: Path, text: str, said: str) -> None:
 
 
 def test_what_all_trials_share_is_looked_up_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Sources and libraries: half a second that every trial would pay."""
+    """CodeSources and libraries: half a second that every trial would pay."""
     asked: list[str] = []
     code_version.cache_clear()
-    monkeypatch.setattr(Sources, "digest", lambda self, module: asked.append(module) or "abc")
+    monkeypatch.setattr(CodeSources, "digest", lambda self, module: asked.append(module) or "abc")
     (tmp_path / "a.txt").write_text("1")
     found = {address_of(quick, QuickOptions(Path("a.txt"), gain=gain), tmp_path, Digests()) for gain in (1.0, 2.0, 2.0)}
     code_version.cache_clear()
