@@ -85,7 +85,7 @@ def _printed(unit: str | None) -> str:
 def _trials(manifest: pd.DataFrame) -> Table:
     shown = manifest.iloc[:ROWS]
     words = f"Trials, {ROWS} of {len(manifest)}" if len(manifest) > ROWS else "Trials"
-    told = frame_table(words, _known(shown.drop(columns="folder")))
+    told = frame_table(words, _known(shown.drop(columns="folder")), most=ROWS)
     links = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
     return Table(told.title, told.header, told.rows, links=links)
 
