@@ -106,9 +106,8 @@ class StudyPlan:
         self._named: list[str] = []
         self._ended: list[int] = []
         self._run_id = secrets.token_hex(8)
-        self._without: frozenset[Part] = frozenset(
-            name for name, wanted in (("pages", study.pages), ("figures", study.figures)) if not wanted
-        )
+        wanted: dict[Part, bool] = {"pages": study.pages, "figures": study.figures}
+        self._without = frozenset(name for name, is_wanted in wanted.items() if not is_wanted)
 
     def look(self) -> None:
         """Find what is there and what can be evaluated at once.

@@ -343,8 +343,8 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
     states = step_states(plan.evaluations, store)
     for one in states:
         say(one.words)
-    for one in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
-        listener().fail(f"{one.run.step} of {one.trial.name}: {one.outcome.line if one.outcome else ''}")
+    for each in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
+        listener().fail(f"{each.run.step} of {each.trial.name}: {each.outcome.line if each.outcome else ''}")
     times = [one.seconds for one in states if one.missing]
     if len(times) > 1 and None not in times:
         total = sum(one.missing * (one.seconds or 0.0) for one in states)
