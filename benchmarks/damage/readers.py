@@ -55,9 +55,9 @@ def _joint_motion(path: Path) -> Any:
 
 def _study(path: Path) -> Any:
     from geocontact.study.description import read_study_file
-    from geocontact.study.trials import trials_of
+    from geocontact.study.steps import runs_of
 
-    return trials_of(read_study_file(path))
+    return runs_of(read_study_file(path))
 
 
 def _case(path: Path) -> Any:

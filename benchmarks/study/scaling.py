@@ -51,8 +51,14 @@ motion = "{{file}}"
 
 def measured(file: Path, out: Path, workers: int) -> dict[str, float]:
     before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    command = [sys.executable, "cli.py", "cohort", str(file), "--out", str(out), "--workers", str(workers)]
-    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    command = [sys.executable, "cli.py", "cohort", str(file), "--run-simulator", "--out", str(out)]
+    subprocess.run(
+        [*command, "--workers", str(workers)],
+        cwd=ROOT,
+        check=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     after, whole = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - started
     told = json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]
     trials, work, spent = told["trials"]["all"], told["work"]["seconds"], told["one_by_one"]["seconds"]

@@ -168,7 +168,8 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
     """Say what was found and where it lies."""
     for sentence in result.sentences:
         print(sentence)
-    print(f"results in {folder}: {', '.join(_shortened(files))}")
+    if files:
+        print(f"results in {folder}: {', '.join(_shortened(files))}")
 
 
 def option(one: Declared) -> str:

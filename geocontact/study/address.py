@@ -1,28 +1,27 @@
 """The address of a trial's results: a digest of all that they depend on.
 
 It is made of the analysis, its options in SI, the content of the files that these name, the sources of the package
-and the versions of the libraries that compute. Files that an analysis finds by itself, such as those that a settings
-file names, are told in `run.json` and compared when results are used again.
+that the analysis can import and the versions of its libraries. A file among the results of an earlier step counts by
+its content, not by the address of those. Files that an analysis finds by itself, such as those that a settings file
+names, stand in `run.json` and are compared when results are used again.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import chdir
-from functools import cache
 from glob import glob, has_magic
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
-from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.folder import digest
+from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.options import Declared, Options, declared
-from geocontact.analyses.frame.record import library_versions
 from geocontact.data.errors import InputError
-from geocontact.data.version import VERSION
+from geocontact.study.code_version import code_version
 
 LENGTH = 32
 """Hexadecimal digits of an address: 128 bits."""
@@ -91,31 +90,49 @@ def _item(one: Declared, kind: Any, value: Any) -> Any:
     return int(value) if kind is int else value
 
 
-def address_of(command: str, options: Options, home: Path, digests: Digests) -> str:
-    """Address of results; paths of the options start from `home`, and count by name and content."""
+def address_of(
+    job: Job[Any, Any],
+    options: Options,
+    home: Path,
+    digests: Digests,
+    taken: Sequence[str] = (),
+    without: Collection[str] = (),
+) -> str:
+    """Address of results; paths of the options start from `home`, and count by name and content.
+
+    Parameters
+    ----------
+    taken
+        Folders of earlier results that options name, as they stand in these: their place in the list counts.
+    without
+        What is not written.
+    """
+
+    def named(text: str) -> str:
+        for k, place in enumerate(taken):
+            text = text.replace(place, f"{{{k}}}")
+        return text
+
     with chdir(home):
-        files = {path.as_posix(): digests.of(path) for path in _files(options)}
-    told = {
-        "command": command,
-        "options": {name: _plain(value) for name, value in options.in_si().items()},
+        files = {named(path.as_posix()): digests.of(path) for path in _files(options)}
+    depends = {
+        "command": job.command,
+        "options": {name: _plain(value, named) for name, value in options.in_si().items()},
         "files": files,
-        **_made_by(),
+        **code_version(job.run.__module__),
+        **({"without": sorted(without)} if without else {}),
     }
-    return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:LENGTH]
+    return hashlib.sha256(json.dumps(depends, sort_keys=True).encode()).hexdigest()[:LENGTH]
 
 
-@cache
-def _made_by() -> dict[str, object]:
-    """What results came of besides options and files; the same for all trials of a study."""
-    return {"geocontact": [VERSION, source_digest.digest()], "libraries": library_versions()}
-
-
-def _plain(value: object) -> object:
+def _plain(value: object, named: Callable[[str], str]) -> object:
     if isinstance(value, (list, tuple)):
-        return [_plain(each) for each in value]
+        return [_plain(each, named) for each in value]
     if isinstance(value, Mapping):
-        return {str(name): _plain(each) for name, each in value.items()}
-    return value if isinstance(value, (str, int, float, bool)) or value is None else str(value)
+        return {str(name): _plain(each, named) for name, each in value.items()}
+    if isinstance(value, (int, float, bool)) or value is None:
+        return value
+    return named(value.as_posix() if isinstance(value, Path) else str(value))
 
 
 def _files(options: Options) -> Iterator[Path]:

@@ -30,12 +30,12 @@ class Part:
 
 
 def collect(kept: Sequence[Kept], store: Store, folder: Path) -> list[str]:
-    """Write each table that trials have as .parquet and .nc below `folder`/tables; their names."""
+    """Write each table that trials have as .parquet and .nc into `folder`; their names."""
     names = dict.fromkeys(name for _, address in kept for name in store.told(address)["tables"])
     for name in names:
         parts = list(_parts(kept, store, name))
         schema = _schema(parts)
-        target = folder / "tables" / name
+        target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         together = target.with_name(f"{target.name}.parquet")
         _write_parquet(parts, schema, together)

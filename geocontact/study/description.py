@@ -30,11 +30,25 @@ options of their own are listed one by one:
     [[trials]]
     subject = "P1"
     options = { motion = "P1.sto", map = "rz=knee_flexion,ty=knee_ty", angles = "rad" }
+
+Steps before the analysis are analyses too, for each trial, each value of a name (`per = ["subject"]`) or once (`per =
+[]`). `{STEP:FILE}` is a file among the results of a step: of the same trial, the same subject, or all of them.
+
+    [steps.scale]
+    analysis = "scale"
+    per = ["subject"]
+    where = { condition = ["static"] }
+    options = { model = "generic.osim", markers = "{file}" }
+
+    [steps.ik]
+    analysis = "ik"
+    options = { model = "{scale:model.osim}", markers = "{file}" }
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -42,7 +56,19 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, ConfigDict, Field, PlainValidator, PrivateAttr, model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import AnyValue, Document, Holds, Names, Rows, Text, Value, Values, checked, refusal
+from geocontact.io.documents import (
+    AnyValue,
+    Document,
+    FileName,
+    Holds,
+    Names,
+    Rows,
+    Text,
+    Value,
+    Values,
+    checked,
+    refusal,
+)
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
 
@@ -140,13 +166,34 @@ class ListedTrial(Document):
         return self.__pydantic_extra__
 
 
+class StepSettings(Document):
+    """A step before the analysis.
+
+    Parameters
+    ----------
+    analysis
+        As its command is typed.
+    options
+        By name; texts may hold `{name}`, and `{STEP:FILE}` of an earlier step.
+    per
+        Names: one evaluation for each combination of their values, `[]` for one over all; by default for each trial.
+    where
+        Values that its trials have; all trials by default.
+    """
+
+    analysis: Annotated[Text, Field(examples=['"ik"'])]
+    options: Mapping[str, Any] = {}
+    per: Names | None = None
+    where: Mapping[str, Values] = {}
+
+
 class StudyFile(Document):
     """Everything in the description.
 
     Parameters
     ----------
     analysis
-        The analysis as its command is typed.
+        The analysis as its command is typed; of several steps the last one.
     title
         Heading of the page; the file's name by default.
     options
@@ -163,6 +210,12 @@ class StudyFile(Document):
         Options with the values that they take in turn, all combinations.
     leave_out
         Trials that are not evaluated: those that have all of these values.
+    steps
+        Analyses before it, by name.
+    per, where
+        As of a step.
+    pages, figures
+        Whether each trial has them.
     summary
         What the page and the statistics are about.
     surface
@@ -178,9 +231,15 @@ class StudyFile(Document):
     vary: Mapping[str, Values] = {}
     sweep: Mapping[str, Values] = {}
     leave_out: Annotated[tuple[dict[str, AnyValue], ...], Rows] = ()
+    steps: dict[FileName, StepSettings] = Field(default_factory=dict)
+    per: Names | None = None
+    where: Mapping[str, Values] = {}
+    pages: bool = True
+    figures: bool = True
     summary: SummarySettings = SummarySettings()
     surface: SurfaceSettings | None = None
     _path: Path = PrivateAttr()
+    _folder: Path | None = PrivateAttr(None)
 
     def model_post_init(self, context: Any) -> None:
         """Take the path of the file."""
@@ -194,7 +253,29 @@ class StudyFile(Document):
     @property
     def home(self) -> Path:
         """Folder that paths in it start from."""
-        return self.path.resolve().parent
+        return self.path.resolve().parent if self._folder is None else self._folder.resolve()
+
+    def within(self, folder: Path | None) -> StudyFile:
+        """The same with paths from another folder, where one is named."""
+        self._folder = folder
+        return self
+
+    @property
+    def own(self) -> StepSettings:
+        """The analysis as the last step."""
+        return StepSettings.model_construct(
+            analysis=self.analysis, options=self.options, per=self.per, where=self.where
+        )
+
+    @property
+    def own_name(self) -> str:
+        """Name of the analysis as a step: its command with _ for what no name has."""
+        return re.sub(r"[^A-Za-z0-9_-]+", "_", self.analysis)
+
+    @property
+    def all_steps(self) -> dict[str, StepSettings]:
+        """Steps by name, the analysis last."""
+        return {**self.steps, self.own_name: self.own}
 
     @property
     def heading(self) -> str:
@@ -211,6 +292,13 @@ class StudyFile(Document):
         return self
 
     @model_validator(mode="after")
+    def _require_a_name(self) -> StudyFile:
+        if self.own_name in self.steps:
+            what = "has the name of the study's own analysis"
+            raise refusal(what, "choose another name", at=("steps", self.own_name, ""))
+        return self
+
+    @model_validator(mode="after")
     def _require_distances(self) -> StudyFile:
         if self.surface is not None and not (self.analysis == "area" and self.options.get("save_map")):
             remedy = 'write analysis = "area", and save_map = true in [options]'
@@ -218,11 +306,11 @@ class StudyFile(Document):
         return self
 
 
-def read_study_file(path: Path) -> StudyFile:
-    """The description; InputError for what is missing or cannot be."""
+def read_study_file(path: Path, folder: Path | None = None) -> StudyFile:
+    """The description, with paths from its own folder or from another; InputError for what is missing or cannot be."""
     content: Mapping[str, Any] = toml_of(path, LARGEST)
     for place, value in numbers_in(content):
         if not math.isfinite(value):
             raise InputError(path, place, f"is {value}", "write a number")
     study: StudyFile = checked(path, StudyFile, content)
-    return study
+    return study.within(folder)

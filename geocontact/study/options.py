@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import Requires, Typed
+from geocontact.analyses.frame.marks import Missing, Requires, Spelled, Texts, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
@@ -25,6 +25,8 @@ class CohortOptions(Options):
     ----------
     study
         Description of the study (.toml): the analysis, its options, and the differences between its trials.
+    folder
+        Folder that paths in it start from; that of the description by default.
 
     Gait cycles
     -----------
@@ -35,6 +37,24 @@ class CohortOptions(Options):
         Side whose cycles count, where the events are of both.
     part
         Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
+
+    What is evaluated
+    -----------------
+    dry_run
+        Evaluate and write nothing: say of each step what has results, what would be evaluated and how long that took
+        before.
+    only
+        Evaluate only trials that have this value, subject=P1; may be given again for another name. Other results are
+        used where they are there.
+    from_step
+        Evaluate this step and all that takes from it anew.
+    forget
+        Evaluate this step anew; later ones follow where its files come out different.
+    redo_failed
+        Evaluate only what trials.csv of the last run names as failed, set aside or an input error, and what takes from
+        it.
+    clean_up
+        Remove results in results/… that no description asks for.
 
     Work
     ----
@@ -59,9 +79,16 @@ class CohortOptions(Options):
 
     study: Path
     _: KW_ONLY
+    folder: Annotated[Path | None, Missing("there is no such folder")] = None
     events: Path | None = None
     cycle_side: Annotated[Side | None, Requires("events")] = None
     part: Annotated[CyclePart | None, Requires("events")] = None
+    dry_run: bool = False
+    only: Texts = ()
+    from_step: Annotated[str | None, Spelled("from")] = None
+    forget: str | None = None
+    redo_failed: bool = False
+    clean_up: bool = False
     run_simulator: bool = False
     scheduler: str = LOCAL
     workers: int | None = None
@@ -74,7 +101,10 @@ class CohortOptions(Options):
         return self.scheduler == LOCAL
 
     def refuse_impossible(self) -> None:
-        """No process, an address that is none, and what an existing cluster decides itself."""
+        """No process, no address, what an existing cluster decides itself, and a choice without a value."""
+        odd = next((each for each in self.only if not each.partition("=")[2]), None)
+        if odd is not None:
+            raise InputError("", "`only`", f"{odd!r} has no value", "write for example subject=P1")
         if not self.local and "://" not in self.scheduler:
             raise InputError(
                 "", "`scheduler`", f"{self.scheduler!r} is not an address", "write tcp://host:8786, or local"

@@ -11,13 +11,10 @@ r"""Studies: `geocontact cohort`, `gc.cohort`.
 
 from __future__ import annotations
 
-import errno
-import secrets
 import shutil
-import time
-from collections.abc import Generator, Mapping
-from contextlib import ExitStack, chdir, closing
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,32 +23,30 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.catalogue import job_named
-from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.collector import add_input, listener, note, reserve, results_place, say
-from geocontact.analyses.frame.consent import ALLOWED, foreign, require_consent
-from geocontact.analyses.frame.folder import Scratch, is_kept
+from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
-from geocontact.analyses.frame.options import declared
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
-from geocontact.analyses.frame.words import counted
 from geocontact.analyses.motion.gait_cycles import cutting_of
 from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
-from geocontact.study.address import Digests, address_of, options_of
-from geocontact.study.curves import STEPS, StudyCurves, curves_of, require_summary
+from geocontact.study.clean_up import not_asked_for, note_asked, size_in_words
+from geocontact.study.curves import StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
+from geocontact.study.graph import StepState, graph_picture, in_words, step_states
 from geocontact.study.options import CohortOptions
+from geocontact.study.plan import LEFT, PLANNED, WITHOUT, Evaluation, StudyPlan
+from geocontact.study.selection import MANIFEST, asked_for
 from geocontact.study.show import study_curves, study_page
+from geocontact.study.steps import StepRun, runs_of
 from geocontact.study.store import RESULTS, Store
 from geocontact.study.surface import (
     SurfaceValues,
     surface_difference_table,
-    surface_differences,
     surface_fields,
     surface_table,
     surface_values,
@@ -59,52 +54,61 @@ from geocontact.study.surface import (
 from geocontact.study.tables import (
     agreement_table,
     difference_table,
-    differences_of,
     ensemble_table,
     latex,
     means_by_condition,
     outlier_table,
     value_table,
 )
-from geocontact.study.trial_run import DONE, FAILED, STOPPED, WRONG, TrialOutcome, TrialTask
-from geocontact.study.trials import CohortTrial, trials_of
-from geocontact.study.workers import outcomes, workers_of
+from geocontact.study.trial_run import DONE, FAILED, WRONG, TrialOutcome
+from geocontact.study.trials import CohortTrial
+from geocontact.study.words import say_differences, say_how_many, say_surface
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
+    from geocontact.analyses.frame.table_forms import TableForms
     from geocontact.view.curves.declared import CurveSheet
     from geocontact.view.page.content import Page
 
-MANIFEST = "trials"
+TABLES = "tables"
+"""Folder of the tables of all trials together, with steps a folder for each below it."""
 PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
-LEVEL = 0.05
 LEAVE_OUT = "their numbers are in tables and means: mend them, or name them in `[[leave_out]]`"
 
 
 @dataclass(frozen=True)
 class PlannedStudy:
-    """The description, and the trials that it comes to."""
+    """The description, and the evaluations that it comes to."""
 
     file: StudyFile
-    trials: tuple[CohortTrial, ...]
+    runs: tuple[StepRun, ...]
     cutting: Cutting | None = None
 
 
 def read(o: CohortOptions) -> PlannedStudy:
     """Description and trials; files of the trials are read by whoever evaluates them."""
-    study = read_study_file(o.study)
+    study = read_study_file(o.study, o.folder)
     add_input("study", o.study, analysis=study.analysis)
     if study.table:
-        add_input("table", o.study.parent / study.table)
-    return PlannedStudy(study, tuple(trials_of(study)), cutting_of(o.events, o.cycle_side, o.part))
+        add_input("table", o.study.parent / study.table if o.folder is None else o.folder / study.table)
+    for name, asked in (("from_step", o.from_step), ("forget", o.forget)):
+        if asked is not None and asked not in study.all_steps:
+            raise InputError(o.study, f"`{name}`", f"no step is {asked!r}", f"there are {', '.join(study.all_steps)}")
+    runs = runs_of(study)
+    known = [*dict.fromkeys(name for run in runs for name in run.trial.factors)]
+    odd = next((each for each in o.only if each.partition("=")[0] not in known), None)
+    if odd is not None:
+        raise InputError(o.study, "`only`", f"no trial has {odd.partition('=')[0]!r}", f"names are {', '.join(known)}")
+    return PlannedStudy(study, tuple(runs), cutting_of(o.events, o.cycle_side, o.part))
 
 
 @dataclass(frozen=True)
 class StudiedTrial:
-    """A trial, the address of its results, and what became of it."""
+    """A trial of a step, the address of its results, and what became of it."""
 
+    step: str
     trial: CohortTrial
     address: str
     outcome: TrialOutcome
@@ -119,7 +123,11 @@ class CohortResult(Result):
     planned
         The study as described.
     trials
-        In the order of the description.
+        Of the analysis, in the order of the description.
+    earlier
+        Those of the steps before it.
+    states
+        Every step.
     store
         Where their results are.
     ensembles
@@ -130,10 +138,15 @@ class CohortResult(Result):
         Holds the store where no folder was named.
     held
         Keeps other studies out of the folder until the tables are written.
+    dry
+        Nothing was evaluated, and nothing is written.
     """
 
     planned: PlannedStudy
     trials: tuple[StudiedTrial, ...]
+    earlier: tuple[StudiedTrial, ...]
+    states: tuple[StepState, ...]
+    dry: bool
     store: Store
     ensembles: tuple[StudyCurves, ...]
     surface: SurfaceValues | None
@@ -146,9 +159,14 @@ class CohortResult(Result):
         return tuple(one for one in self.trials if one.outcome.state == DONE)
 
     @property
+    def every(self) -> tuple[StudiedTrial, ...]:
+        """Trials of all steps."""
+        return (*self.earlier, *self.trials)
+
+    @property
     def accepted(self) -> bool:
         """False where a trial could not be evaluated."""
-        return len(self.done) == len(self.trials)
+        return all(one.outcome.state in (DONE, LEFT, PLANNED) for one in self.every)
 
     @property
     def exit_code(self) -> int:
@@ -156,11 +174,11 @@ class CohortResult(Result):
 
         A trial whose inputs contradict each other beside its result has such a mistake.
         """
-        states = {one.outcome.state for one in self.trials}
-        for told in (self.store.told(one.address) for one in self.done):
+        states = {one.outcome.state for one in self.every} - {DONE, LEFT, PLANNED, WITHOUT}
+        for told in (self.store.told(one.address) for one in self.every if one.outcome.state == DONE):
             if told.get("fit") == CONTRADICTS:
                 states.add(WRONG if told.get("inputs contradict") else FAILED)
-        return 0 if states == {DONE} else WRONG_CODE if states <= {DONE, WRONG} else FAILED_CODE
+        return 0 if not states else WRONG_CODE if states == {WRONG} else FAILED_CODE
 
     @property
     def means(self) -> dict[tuple[str, str], Float[np.ndarray, " 101"]]:
@@ -209,8 +227,10 @@ class CohortResult(Result):
 
     def _manifest(self) -> pd.DataFrame:
         names = list(dict.fromkeys(name for one in self.trials for name in one.trial.factors))
+        names += [name for one in self.earlier for name in one.trial.factors if name not in names]
         rows = [
             {
+                **({"step": one.step} if self.earlier else {}),
                 "name": one.trial.name,
                 **{name: one.trial.factors.get(name, "") for name in names},
                 "state": one.outcome.state,
@@ -218,7 +238,7 @@ class CohortResult(Result):
                 **doubt_columns(told.get("fit", ""), told.get("warnings", ())),
                 "words": one.outcome.line,
             }
-            for one in self.trials
+            for one in self.every
             for told in [self.store.told(one.address) if one.outcome.state == DONE else {}]
         ]
         return pd.DataFrame(rows)
@@ -235,7 +255,12 @@ class CohortResult(Result):
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Mean curves, statistics, and all trials with a link to the page of each."""
-        return {REPORT: study_page(self.title, self.ensembles, self.tables())}
+        graph = [graph_picture(self.states)] if self.earlier else []
+        return {REPORT: study_page(self.title, self.ensembles, self.tables(), graph)}
+
+    def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
+        """Nothing of a dry run: results of a run before it stay as they are."""
+        return [] if self.dry else super().put(draft, forms)
 
     def write_files(self, folder: Path) -> None:
         """Also the tables of all trials together; then other studies may write into the folder."""
@@ -245,25 +270,19 @@ class CohortResult(Result):
 
     def _write_further(self, folder: Path) -> None:
         if self.scratch is not None:
-            for one in self.done:
+            for one in (each for each in self.every if each.outcome.state == DONE):
                 shutil.copytree(self.store.place(one.address), folder / RESULTS / one.address, dirs_exist_ok=True)
         tables = self.tables()
         for name in (name for name in PRINTED if name in tables):
             (folder / f"{name}.tex").write_text(latex(tables[name]), encoding="utf-8")
         from geocontact.study.collect import collect  # with pyarrow, of the extra
 
-        collect([(one.trial, one.address) for one in self.done], self.store, folder)
+        for step in self.states:
+            own = [one for one in self.every if one.step == step.name and one.outcome.state == DONE]
+            place = folder / TABLES / step.name if self.earlier else folder / TABLES
+            collect([(one.trial, one.address) for one in own], self.store, place)
         if self.surface is not None:
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))
-
-
-@dataclass(frozen=True)
-class _Planned:
-    """A trial, its address, "" where its options cannot be, and what is known of it before it runs."""
-
-    trial: CohortTrial
-    address: str
-    known: TrialOutcome | None
 
 
 def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
@@ -272,17 +291,22 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     scratch = Scratch() if place is None else None
     out = place if place is not None else scratch.folder if scratch is not None else Path()
     store = Store(out.resolve() / RESULTS)
+    plan = StudyPlan(planned.file, planned.runs, store, o, asked_for(planned.file, o, out))
+    if o.dry_run:
+        plan.look()
+        return _dry(planned, plan, store, scratch)
     with ExitStack() as held:  # until the tables are written, unless something goes wrong before
         held.enter_context(store.begun())
-        plan = _plan(planned, store, o)
-        if any(one.known is not None and one.known.state == DONE for one in plan):
-            is_kept(store.folder)
-        became = _evaluated(planned, plan, store, o)
-        trials, curves, surface = _looked_at(planned, plan, became, store, o)
+        plan.look()
+        plan.evaluate(_checked(planned, plan, store))
+        trials, curves, surface = _looked_at(planned, plan, store, o)
         kept = ExitStack() if scratch is not None else held.pop_all()
     return CohortResult(
         planned=planned,
-        trials=trials,
+        trials=trials[1],
+        earlier=trials[0],
+        states=tuple(step_states(plan.evaluations, store)),
+        dry=False,
         store=store,
         ensembles=curves,
         surface=surface,
@@ -291,134 +315,101 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     )
 
 
+def _checked(planned: PlannedStudy, plan: StudyPlan, store: Store) -> Callable[[Evaluation], None]:
+    """What requires of the first trial with results that it has what the summary is about."""
+    own = [one for one in plan.evaluations if one.run.step == planned.file.own_name]
+    alike = len({frozenset(one.trial.options) for one in own}) == 1
+    seen: list[str] = []
+
+    def check(one: Evaluation) -> None:
+        if not seen and one.run.step == planned.file.own_name:
+            seen.append(one.address)
+            require_summary(planned.file, (one.trial, one.address), store, alike=alike)
+
+    return check
+
+
+def _studied(plan: StudyPlan, own: str) -> tuple[tuple[StudiedTrial, ...], tuple[StudiedTrial, ...]]:
+    """Trials of the steps before the analysis, and its own."""
+    every = [
+        StudiedTrial(one.run.step, one.trial, one.address, one.outcome or TrialOutcome(PLANNED))
+        for one in plan.evaluations
+    ]
+    return tuple(one for one in every if one.step != own), tuple(one for one in every if one.step == own)
+
+
+def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch | None) -> CohortResult:
+    """What a run would evaluate, in words and as a table."""
+    states = step_states(plan.evaluations, store)
+    for one in states:
+        say(one.words)
+    for each in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
+        listener().fail(f"{each.run.step} of {each.trial.name}: {each.outcome.line if each.outcome else ''}")
+    times = [one.seconds for one in states if one.missing]
+    if len(times) > 1 and None not in times:
+        total = sum(one.missing * (one.seconds or 0.0) for one in states)
+        say(f"all of it: about {in_words(total)} of work, shared by the workers")
+    known = all(one.state == DONE for one in plan.evaluations)  # else some may still be those of later steps
+    if known and (left := not_asked_for(store, planned.file.path, {one.address for one in plan.evaluations})):
+        say(f"no description asks for {size_in_words(left.values())}; `clean_up` removes them")
+    earlier, trials = _studied(plan, planned.file.own_name)
+    return CohortResult(
+        planned=planned,
+        trials=trials,
+        earlier=earlier,
+        states=tuple(states),
+        dry=True,
+        store=store,
+        ensembles=(),
+        surface=None,
+        scratch=scratch,
+        held=ExitStack(),
+    )
+
+
 def _looked_at(
-    planned: PlannedStudy,
-    plan: list[_Planned],
-    became: list[TrialOutcome],
-    store: Store,
-    o: CohortOptions,
-) -> tuple[tuple[StudiedTrial, ...], tuple[StudyCurves, ...], SurfaceValues | None]:
+    planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions
+) -> tuple[tuple[tuple[StudiedTrial, ...], tuple[StudiedTrial, ...]], tuple[StudyCurves, ...], SurfaceValues | None]:
     """What became of each trial, curves, a surface where there is one; what goes wrong and what differs is said."""
-    trials = tuple(StudiedTrial(one.trial, one.address, became[k]) for k, one in enumerate(plan))
-    for one in trials:
-        if one.outcome.state != DONE:
-            listener().fail(f"{one.trial.name}: {one.outcome.line}")
+    earlier, trials = _studied(plan, planned.file.own_name)
+    for one in (*earlier, *trials):
+        if one.outcome.state not in (DONE, LEFT, WITHOUT):
+            of = f"{one.step} of " if earlier else ""
+            listener().fail(f"{of}{one.trial.name}: {one.outcome.line}")
     done = [one for one in trials if one.outcome.state == DONE]
-    if not done:
-        raise InputError(o.study, "", f"none of the {len(trials)} trials could be evaluated", "see the lines above")
-    new = len({one.address for one in trials if one.outcome.state == DONE} - {one.address for one in plan if one.known})
+    if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
+        count = len(trials) + len(earlier)
+        raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
     note("trials", {"all": len(trials), "done": len(done)})
-    all_of_them = f"{len(done)} of {counted(len(trials), 'trial')} of {planned.file.analysis}"
-    say(f"{all_of_them} have results, {new} of them new")
-    told = [(one.trial.name, store.told(one.address)) for one in done]
+    say_how_many(plan.evaluations)
+    _clean(plan, store, o)
+    told = [(one.trial.name, store.told(one.address)) for one in (*earlier, *trials) if one.outcome.state == DONE]
     judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
     reserve_of_several([(name, each["warnings"]) for name, each in told])
-    curves = curves_of(planned.file, [(one.trial, one.address) for one in done], store, planned.cutting)
-    surface = surface_values(planned.file, [(one.trial, one.address) for one in done], store)
+    kept = [(one.trial, one.address) for one in done]
+    curves = curves_of(planned.file, kept, store, planned.cutting) if kept else ()
+    surface = surface_values(planned.file, kept, store)
     for line in means_by_condition(curves):
         say(line)
-    _report_conditions(curves)
+    say_differences(curves)
     if surface is not None:
-        _report_surface(surface)
-    return trials, curves, surface
+        say_surface(surface)
+    return (earlier, trials), curves, surface
 
 
-def _report_conditions(curves: tuple[StudyCurves, ...]) -> None:
-    """What conditions differ in, and which trials lie apart."""
-    for one, first, second, found in differences_of(curves):
-        name = f"{split_header(one.column)[0]}, {first} against {second}"
-        where = STEPS[found.p <= LEVEL]
-        subjects = counted(found.subjects, "subject")
-        if found.smallest > LEVEL:
-            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
-        elif len(where):
-            say(f"{name}: p is at most 5 % at {len(where)} of 101 places, {where[0]:g} to {where[-1]:g} %")
-        else:
-            say(f"{name}: no difference shown by {subjects}, the smallest p is {found.p.min():.2g}")
-    apart = outlier_table(curves)
-    for name in dict.fromkeys(apart["name"]):
-        reserve(f"{name} lies apart from the other trials of its condition")
-
-
-def _report_surface(surface: SurfaceValues) -> None:
-    """On how many points conditions differ."""
-    for first, second, there, found in surface_differences(surface):
-        name = f"distance at {len(surface.points)} particles, {first} against {second}"
-        subjects = counted(found.subjects, "subject")
-        if found.smallest > LEVEL:
-            say(f"{name}: {subjects} cannot show a difference, the smallest p is {found.smallest:.2g}")
-            continue
-        shown = np.zeros(there.shape, bool)
-        shown[there] = found.p <= LEVEL
-        say(f"{name}: p is at most 5 % at {shown.any(axis=0).sum()} of them, by {subjects}")
-
-
-def _plan(planned: PlannedStudy, store: Store, o: CohortOptions) -> list[_Planned]:
-    """Every trial with its address; InputError where a file names what the call does not allow to be started."""
-    analysis, home, file = planned.file.analysis, planned.file.home, planned.file.path
-    own = [f"the module of {analysis!r}"] if foreign(analysis) else []
-    require_consent(own, o.run_simulator, file)
-    job, digests = job_named(analysis), Digests()
-    allows = o.run_simulator and any(one.name == ALLOWED for one in declared(job.options))
-    found, named = [], own
-    for one in planned.trials:
-        trial = replace(one, options={**one.options, ALLOWED: True}) if allows else one
-        try:
-            with chdir(home):
-                options = options_of(job.options, trial.options)
-                options.refuse_missing_files()
-                named += options.programs()
-            address = address_of(job.command, options, home, digests)
-        except InputError as error:
-            found.append(_Planned(trial, "", TrialOutcome(WRONG, str(error))))
-            continue
-        found.append(_Planned(trial, address, TrialOutcome(DONE) if store.holds(address, home, digests) else None))
-    if line := require_consent(named, o.run_simulator, file):
-        listener().fail(line)
-    for each in found:
-        if each.known is None:
-            store.forget(each.address)
-    return found
-
-
-def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions) -> list[TrialOutcome]:
-    """What became of each trial of the plan; only what is missing is evaluated."""
-    run_id, sources = secrets.token_hex(8), source_digest.digest()
-    missing = {one.address: one.trial for one in plan if one.known is None}
-    tasks = [
-        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id, o.limit)
-        for address, trial in missing.items()
-    ]
-    alike = len({frozenset(one.trial.options) for one in plan}) == 1
-    known = [(one.trial, one.address) for one in plan if one.known is not None and one.known.state == DONE]
-    for one in known[:1]:
-        require_summary(planned.file, one, store, alike=alike)
-    became: dict[str, TrialOutcome] = {}
-    with closing(_outcomes(tasks, o)) as ended:
-        for address, outcome in ended:
-            became[address] = outcome
-            if outcome.state == DONE and not known:
-                known.append((missing[address], address))
-                require_summary(planned.file, known[0], store, alike=alike)
-    return [one.known or became[one.address] for one in plan]
-
-
-def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Generator[tuple[str, TrialOutcome]]:
-    if not tasks:
+def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
+    """Keep what the description asks for; remove what none does, where that is asked."""
+    addresses = {one.address for one in plan.evaluations} - {""}
+    note_asked(store, o.study, addresses)
+    if not o.clean_up:
         return
-    with workers_of(o) as workers, listener().progress("trials", len(tasks)) as step:
-        started, spent = time.perf_counter(), 0.0
-        for task, outcome in outcomes(workers, tasks):
-            if outcome.state == STOPPED:
-                line = f"{outcome.line}; finished trials stay: run it again when that is mended"
-                raise OSError(errno.EIO, line, str(task.store.folder))
-            yield task.address, outcome
-            spent += outcome.seconds
-            if outcome.state == DONE:
-                is_kept(task.store.folder)
-            step()
-        note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": workers.threads()})
-        note("one_by_one", {"seconds": round(spent, 3)})
+    if any(one.state != DONE for one in plan.evaluations):
+        reserve("nothing was removed: evaluations without results may still need what is there")
+        return
+    left = not_asked_for(store, o.study, addresses)
+    for each in left:
+        store.forget(each)
+    say(f"removed what no description asks for: {size_in_words(left.values())}")
 
 
 cohort = Job("cohort", CohortOptions, read, run)

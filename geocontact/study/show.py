@@ -16,7 +16,7 @@ from geocontact.study.curves import STEPS, StudyCurves
 from geocontact.study.tables import means_by_condition
 from geocontact.view.curves.declared import Curves, CurveSheet, mean_curve
 from geocontact.view.curves.style import PALETTE
-from geocontact.view.page.content import Page, Section, Table
+from geocontact.view.page.content import Page, Picture, Section, Table
 from geocontact.view.page.tables import frame_table
 
 DRAWN = len(PALETTE)
@@ -25,8 +25,13 @@ ROWS = 500
 """Rows of the table of trials that the page shows; trials.csv has all."""
 
 
-def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, pd.DataFrame]) -> Page:
-    """The page, with curves that can be read by pointing at them."""
+def study_page(
+    title: str,
+    curves: Sequence[StudyCurves],
+    tables: Mapping[str, pd.DataFrame],
+    graph: Sequence[Picture] = (),
+) -> Page:
+    """The page, with curves that can be read by pointing at them, and the graph of the steps behind them."""
     sections: list[Section] = [*study_curves(curves).panels]
     for name, words in (
         ("values", "Mean and largest value of the subjects"),
@@ -35,6 +40,7 @@ def study_page(title: str, curves: Sequence[StudyCurves], tables: Mapping[str, p
     ):
         if name in tables and len(tables[name]):
             sections.append(frame_table(words, _known(tables[name])))
+    sections += graph
     sections.append(_trials(tables["trials"]))
     return Page(
         title,
@@ -79,7 +85,7 @@ def _printed(unit: str | None) -> str:
 def _trials(manifest: pd.DataFrame) -> Table:
     shown = manifest.iloc[:ROWS]
     words = f"Trials, {ROWS} of {len(manifest)}" if len(manifest) > ROWS else "Trials"
-    told = frame_table(words, _known(shown.drop(columns="folder")))
+    told = frame_table(words, _known(shown.drop(columns="folder")), most=ROWS)
     links = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
     return Table(told.title, told.header, told.rows, links=links)
 

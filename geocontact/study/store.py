@@ -5,10 +5,11 @@ from __future__ import annotations
 import errno
 import os
 import platform
+import re
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,11 +18,12 @@ from typing import Any
 from geocontact.analyses.frame.folder import RUN, is_inside
 from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import read_json
-from geocontact.study.address import Digests
+from geocontact.study.address import LENGTH, Digests
 
 LOCK = ".lock"
 TAKEN = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 LARGEST_TOLD = 200
+ADDRESS = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
 BEHIND = 1 << 20
 """Byte that is locked on Windows, where others cannot read what is locked: behind what is told."""
 RESULTS = "results"
@@ -92,6 +94,11 @@ def _lock(descriptor: int) -> bool:
     return True
 
 
+def _moved(file: str, now: Mapping[str, str]) -> str:
+    """The path of a file with the folder of earlier results that it would come from now."""
+    return next((new + file[len(old) :] for old, new in now.items() if file.startswith(f"{old}/")), file)
+
+
 @dataclass(frozen=True)
 class Store:
     """Results by address below one folder.
@@ -121,20 +128,55 @@ class Store:
                 raise InputError(file, "tables", what, "remove that folder: the trial is evaluated anew")
         return found
 
-    def holds(self, address: str, home: Path, digests: Digests) -> bool:
-        """Whether results are there, and all files that they were made of are as they were."""
+    def holds(self, address: str, home: Path, digests: Digests, taken: Sequence[str] = ()) -> bool:
+        """Whether results are there, and all files that they were made of are as they were.
+
+        `taken` are the folders of earlier results that they would be made of now, in the order of `address_of`: their
+        files stand for those of the folders that these results were made of.
+        """
         place = self.place(address)
         if not (place / TOLD).is_file():
             return False
         try:
+            before = read_json(place / TOLD).get("from", [])
+            now = dict(zip(before, taken, strict=True))
             inputs = read_json(place / RUN)["inputs"]
             return all(
-                digests.of(home / each["file"]) == each["sha256"]
+                digests.of(home / _moved(str(each["file"]), now)) == each["sha256"]
                 for each in inputs
                 if "sha256" in each and "file" in each
             )
         except (OSError, ValueError, KeyError, TypeError):
             return False
+
+    def seconds(self, address: str) -> float | None:
+        """How long the results took [s]; None where that is not known."""
+        try:
+            return float(read_json(self.place(address) / RUN)["seconds"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+
+    def of_step(self, name: str, most: int) -> list[str]:
+        """Addresses of at most so many results of a step, whatever they were made of."""
+        found = []
+        for each in self.addresses():
+            with suppress(OSError, ValueError, TypeError, AttributeError):
+                if read_json(self.place(each) / TOLD).get("step") == name:
+                    found.append(each)
+            if len(found) == most:
+                break
+        return found
+
+    def addresses(self) -> list[str]:
+        """Addresses that have results, in order of the alphabet."""
+        there = self.folder.iterdir() if self.folder.is_dir() else ()
+        return sorted(
+            p.name for p in there if ADDRESS.fullmatch(p.name) and not p.is_symlink() and (p / TOLD).is_file()
+        )
+
+    def size(self, address: str) -> int:
+        """Bytes of results."""
+        return sum(file.stat().st_size for file in self.place(address).rglob("*") if file.is_file())
 
     def keep(self, draft: Path, address: str) -> None:
         """Put finished results in their place; where others finished them meanwhile, theirs stay."""

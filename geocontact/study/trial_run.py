@@ -21,6 +21,7 @@ from geocontact.analyses.catalogue import job_named
 from geocontact.analyses.frame import source_digest
 from geocontact.analyses.frame.job import Call, execute
 from geocontact.analyses.frame.record import Listener
+from geocontact.analyses.frame.result import Part
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
 from geocontact.study.address import options_of
@@ -57,6 +58,12 @@ class TrialTask:
         Marks one run of the study.
     limit
         Longest that the trial may take [s], twice that at the second try; None without a limit.
+    step
+        Name of its step in the study.
+    taken
+        Folders of earlier results that options name, as paths from `home`.
+    without
+        What is not written.
     """
 
     analysis: str
@@ -67,6 +74,9 @@ class TrialTask:
     sources: str
     run: str
     limit: float | None = None
+    step: str = ""
+    taken: tuple[str, ...] = ()
+    without: frozenset[Part] = frozenset()
 
     def given_up(self) -> str:
         """Why the trial is not tried again, in a line; "" where it is."""
@@ -157,10 +167,12 @@ def _evaluate(task: TrialTask, out: Path) -> None:
     job = job_named(task.analysis)
     options = options_of(job.options, task.options)
     options.refuse_missing_files()
-    call = Call(dict(task.options), Listener(), forms=TableForms(parquet=True))
+    call = Call(dict(task.options), Listener(), forms=TableForms(parquet=True), without=task.without)
     result, _ = execute(job, options, out, call)
     told = {
         "analysis": task.analysis,
+        "step": task.step,
+        "from": list(task.taken),
         "tables": [name for name, table in result.tables().items() if len(table.columns)],
         "sentences": list(result.sentences),
         "warnings": list(result.warnings),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
@@ -74,7 +73,37 @@ class CohortTrial:
     options: Mapping[str, Any]
 
 
-def trials_of(study: StudyFile) -> list[CohortTrial]:
+@dataclass(frozen=True)
+class TrialRow:
+    """One trial before any step is evaluated.
+
+    Parameters
+    ----------
+    name
+        What it differs in, in words.
+    factors
+        The same by name, swept options among them.
+    given
+        What `{name}` stands for in options.
+    options, swept
+        Of its own, and those that the study gives in turn: both of the study's own analysis.
+    """
+
+    name: str
+    factors: Mapping[str, Value]
+    given: Mapping[str, Value]
+    options: Mapping[str, Any]
+    swept: Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class Several:
+    """What `{name}` stands for where several trials are evaluated together and differ in it."""
+
+    values: tuple[Value, ...]
+
+
+def trials_of(study: StudyFile) -> list[TrialRow]:
     """All trials, files in the order of their paths, lists as they are written, the first outermost."""
     rows: list[Factors] = [{}]
     for source, more in _sources(study):
@@ -83,9 +112,6 @@ def trials_of(study: StudyFile) -> list[CohortTrial]:
     found = [one for one in trials if one is not None]
     if not found:
         raise InputError(study.path, "", "every trial is left out", "see [[leave_out]]")
-    twice = next((name for name, count in Counter(one.name for one in found).items() if count > 1), None)
-    if twice is not None:
-        raise InputError(study.path, "", f"two trials are {twice!r}", "name what they differ in, as in {trial}")
     return found
 
 
@@ -121,7 +147,7 @@ def _varied(study: StudyFile, rows: Iterable[Factors]) -> Iterator[tuple[Factors
                     yield {**row, **varied}, dict(zip(study.sweep, swept, strict=True))
 
 
-def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None:
+def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> TrialRow | None:
     """The trial of a row; None where it is left out."""
     given, swept = row
     own = given.get(APART, {})
@@ -133,23 +159,34 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> CohortTrial | None
     for left in study.leave_out:
         if all(str(factors.get(name)) == str(value) for name, value in left.items()):
             return None
-    options = {name: filled(study, name, value, given) for name, value in {**study.options, **own}.items()}
-    twice = next((name for name in swept if name in options), None)
-    if twice is not None:
-        raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
     name = " ".join(str(value) for value in factors.values()) or study.path.stem
-    return CohortTrial(name, factors, {**options, **swept})
+    return TrialRow(name, factors, {**swept, **given}, own, swept)
 
 
-def filled(study: StudyFile, name: str, value: Any, factors: Mapping[str, Value], where: str = "[options]") -> Any:
-    """A value with what `{name}` stands for; a number where it stands alone for one."""
+def filled(
+    study: StudyFile, name: str, value: Any, factors: Mapping[str, Value | Several], where: str = "[options]"
+) -> Any:
+    """A value with what `{name}` stands for; a number where it stands alone for one, several items in a list."""
     if isinstance(value, list):
-        return [filled(study, name, each, factors, where) for each in value]
+        return [each for item in value for each in _items(study, name, item, factors, where)]
     if not isinstance(value, str):
         return value
-    unknown = next((each for each in NAME.findall(value) if each not in factors), None)
-    if unknown is not None:
-        known = ", ".join(factors) or "none"
-        raise InputError(study.path, f"{where} {name}", f"no trial has {{{unknown}}}", f"names are {known}")
+    for each in NAME.findall(value):
+        known = factors.get(each)
+        if known is None:
+            raise InputError(
+                study.path, f"{where} {name}", f"no trial has {{{each}}}", f"names are {', '.join(factors) or 'none'}"
+            )
+        if isinstance(known, Several):
+            what = f"{{{each}}} stands for {len(known.values)} values"
+            remedy = f'write it in a list, ["{{{each}}}"], or choose trials by `where`'
+            raise InputError(study.path, f"{where} {name}", what, remedy)
     alone = NAME.fullmatch(value)
     return factors[alone[1]] if alone else NAME.sub(lambda found: str(factors[found[1]]), value)
+
+
+def _items(study: StudyFile, name: str, item: Any, factors: Mapping[str, Value | Several], where: str) -> list[Any]:
+    """What an item of a list stands for."""
+    alone = NAME.fullmatch(item) if isinstance(item, str) else None
+    known = factors.get(alone[1]) if alone else None
+    return list(known.values) if isinstance(known, Several) else [filled(study, name, item, factors, where)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import errno
 import logging
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from itertools import islice
 from multiprocessing import current_process
@@ -155,8 +155,10 @@ def _existing(o: CohortOptions, distributed: Any) -> Any:
         raise InputError("", "`scheduler`", what, remedy) from error
 
 
-def outcomes(workers: Workers, tasks: Sequence[TrialTask]) -> Iterator[tuple[TrialTask, TrialOutcome]]:
+def outcomes(workers: Workers, tasks: Iterable[TrialTask]) -> Iterator[tuple[TrialTask, TrialOutcome]]:
     """Every task with its outcome, in the order in which they end; OSError where scheduler or workers are lost.
+
+    The iterator of `tasks` is asked again after each outcome: it may have more to give then.
 
     What is given out at a time hangs on the number of workers and not on that of tasks. A task that was not at work
     when its worker ended is given out again. Dask does not restart a process that ends while it is starting: where no

@@ -36,7 +36,7 @@ from geocontact.io.recordings.spheres import read_law
 from geocontact.io.recordings.standing_study import read_standing_study
 from geocontact.study.address import as_typed, options_of
 from geocontact.study.description import read_study_file
-from geocontact.study.trials import trials_of
+from geocontact.study.steps import runs_of
 
 Place = tuple[str | int, ...]
 
@@ -44,9 +44,9 @@ Place = tuple[str | int, ...]
 def cohort(path: Path) -> None:
     """Trials of a study and their options, as they are read before any is evaluated."""
     study = read_study_file(path)
-    for trial in trials_of(study):
+    for one in runs_of(study):
         with chdir(study.home):
-            options_of(job_named(study.analysis).options, trial.options)
+            options_of(job_named(one.analysis).options, one.trial.options)
 
 
 CASE = """format = 1
@@ -97,6 +97,14 @@ files = "{subject}_{condition}.csv"
 table = "people.csv"
 trials = [{ subject = "P1", walk = 3, options = { split = "z", side = "left" } }, { subject = "P2", walk = 4 }]
 leave_out = [{ subject = "P2", condition = "fast" }]
+per = ["subject", "condition", "threshold"]
+where = { condition = ["slow"] }
+pages = false
+figures = false
+steps.ik.analysis = "ik"
+steps.ik.per = ["subject"]
+steps.ik.where = { condition = ["slow"] }
+steps.ik.options = { markers = "a.csv", model = "a.osim" }
 [options]
 moving = "a.stl"
 fixed = "a.stl"
@@ -124,8 +132,9 @@ at = [0, 50, 100]
             r"trials \d+ (subject|walk)": FREE,
             r"leave_out \d+ \w+": FREE,
             r"(vary|sweep) \w+ \d+": FREE,
+            r"(steps ik )?where \w+ \d+": FREE,
             "summary where .*": FREE,
-            r"(options|trials \d+ options) \w+": (*FREE, "list", "table", "date"),
+            r"(options|trials \d+ options|steps ik options) \w+": (*FREE, "list", "table", "date"),
             r"options motion": (*FREE, "list"),
         },
     ),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -119,3 +121,28 @@ def test_knees_of_two_laboratories_have_options_of_their_own(data_dir: Path, tmp
     assert table.groupby("subject").size().to_dict() == {"JW": 41, "DM": 101}
     assert table["area_fixed [mm^2]"].between(300.0, 3500.0).all()
     assert len(made.table("ensemble.csv")["condition"].unique()) == 1
+
+
+STUDIES = Path(__file__).parents[2] / "docs" / "how-to" / "studies"
+
+
+@pytest.mark.slow
+def test_two_real_knees_and_a_walk_in_one_study(data_dir: Path, tmp_path: Path) -> None:
+    """E* of JW is that of the same files typed one after the other, and the least squares of force on a^3."""
+    out = tmp_path / "out"
+    study = STUDIES / "real_knees.toml"
+    made = done(call("cohort", study, "--folder", data_dir, "--workers", "1", "--out", out, folder=out))
+    rows = made.table("trials.csv").set_index("step")
+    assert list(rows.index) == ["scale", "ik", "id", "poses", "pressure", "modulus"] and set(rows["state"]) == {"done"}
+    found = json.loads((out / rows["folder"]["modulus"] / "modulus.json").read_text(encoding="utf-8"))
+    assert found["E_star_Pa"] == pytest.approx(1.53e6, rel=0.02)
+    area = pd.read_parquet(out / "tables" / "poses" / "area.parquet")
+    area = area[area["threshold [mm]"] == 4.0]
+    lines = (data_dir / "gc4_jw_predsim_workshop" / "KCF_ref.mot").read_text(encoding="utf-8").splitlines()
+    force = np.array([line.split() for line in lines[6:] if line.strip()], float)
+    measured = 4.4482216 * np.interp(area["time [s]"], force[:, 0], force[:, 1] + force[:, 2])
+    law = 4.0 / 3.0 * (1e-6 * area["area_fixed [mm^2]"].to_numpy() / np.pi) ** 1.5 / 0.037
+    assert found["E_star_Pa"] == pytest.approx((law * measured).sum() / (law * law).sum(), rel=1e-6)
+    markers = pd.read_parquet(out / "tables" / "ik" / "markers.parquet")
+    assert len(markers) > 30, "the walk of subject01"
+    assert pd.read_parquet(out / "tables" / "pressure" / "pressure.parquet")["peak [MPa]"].max() > 50.0, "DM overlaps"

@@ -148,6 +148,14 @@ def test_units_on_the_page_are_as_in_print(tmp_path: Path) -> None:
     assert [part.unit for part in page.sections if isinstance(part, Curves)] == ["mm²"]
 
 
+@pytest.mark.parametrize("trials", [1, 201, 500, 501])
+def test_the_page_of_many_trials_links_to_those_that_it_shows(trials: int) -> None:
+    manifest = pd.DataFrame({"name": [f"S{k}" for k in range(trials)], "folder": "results/0"})
+    page = study_page("many", [], {"trials": manifest})
+    (table,) = (part for part in page.sections if isinstance(part, Table))
+    assert len(table.rows) == len(table.links) == min(trials, 500)
+
+
 @pytest.mark.slow
 def test_a_trial_that_takes_more_memory_than_it_may_is_set_aside(tmp_path: Path) -> None:
     out = tmp_path / "out"

@@ -7,15 +7,17 @@ from pathlib import Path
 import pytest
 
 from geocontact.data.errors import InputError
-from geocontact.study import address
+from geocontact.study.address import Digests, address_of
+from geocontact.study.code_version import CodeSources, code_version
 from geocontact.study.description import read_study_file
-from geocontact.study.trials import CohortTrial, trials_of
-from tests.study.quick import QuickOptions
+from geocontact.study.steps import runs_of
+from geocontact.study.trials import CohortTrial
+from tests.study.quick import QuickOptions, quick
 
 
 def trials(folder: Path, text: str) -> list[CohortTrial]:
     (folder / "study.toml").write_text(f'analysis = "area"\n{text}', encoding="utf-8")
-    return trials_of(read_study_file(folder / "study.toml"))
+    return [one.trial for one in runs_of(read_study_file(folder / "study.toml"))]
 
 
 @pytest.fixture
@@ -103,14 +105,11 @@ def test_what_cannot_be_is_one_line(data: Path, text: str, said: str) -> None:
 
 
 def test_what_all_trials_share_is_looked_up_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Sources and libraries: a tenth of a second that every trial would pay."""
+    """CodeSources and libraries: half a second that every trial would pay."""
     asked: list[str] = []
-    address._made_by.cache_clear()
-    monkeypatch.setattr(address.source_digest, "digest", lambda: asked.append("sources") or "abc")
+    code_version.cache_clear()
+    monkeypatch.setattr(CodeSources, "digest", lambda self, module: asked.append(module) or "abc")
     (tmp_path / "a.txt").write_text("1")
-    found = {
-        address.address_of("quick", QuickOptions(Path("a.txt"), gain=gain), tmp_path, address.Digests())
-        for gain in (1.0, 2.0, 2.0)
-    }
-    address._made_by.cache_clear()
-    assert len(found) == 2 and asked == ["sources"]
+    found = {address_of(quick, QuickOptions(Path("a.txt"), gain=gain), tmp_path, Digests()) for gain in (1.0, 2.0, 2.0)}
+    code_version.cache_clear()
+    assert len(found) == 2 and asked == ["tests.study.quick"]

@@ -17,7 +17,7 @@ from geocontact.analyses.frame.folder import written_whole
 from geocontact.analyses.frame.in_memory import InMemory
 from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.record import Listener, Record, as_python
-from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.result import Part, Result
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.data.errors import InputError, InputWarning
@@ -130,6 +130,8 @@ class Call:
         Further forms of the tables.
     overwrite
         Whether a folder that holds results already may be written into.
+    without
+        Parts that are not written.
     """
 
     typed: Mapping[str, object]
@@ -137,12 +139,20 @@ class Call:
     spell: Callable[[str], str] = as_python
     forms: TableForms = AS_ALWAYS
     overwrite: bool = True
+    without: frozenset[Part] = frozenset()
 
 
 def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[R, list[str]]:
     """Evaluate and write into `out`, whole or not at all; the result and the names of the files."""
     record = Record(
-        job.command, call.typed, options.in_si(), listener=call.listener, spell=call.spell, forms=call.forms, out=out
+        job.command,
+        call.typed,
+        options.in_si(),
+        listener=call.listener,
+        spell=call.spell,
+        forms=call.forms,
+        out=out,
+        without=call.without,
     )
     with collecting(record), written_whole(out, call.overwrite) as draft:
         with record.stage():

@@ -89,6 +89,8 @@ class Record:
         Further forms of the tables.
     out
         Where results will be; None where nothing is written. What is whole by itself may be put there at once.
+    without
+        Parts of a result that are not written.
     held
         Values of a Python session that stand where files are; their files are there as long as the record is.
     """
@@ -108,6 +110,7 @@ class Record:
     spell: Callable[[str], str] = as_python
     forms: TableForms = AS_ALWAYS
     out: Path | None = None
+    without: frozenset[str] = frozenset()
     held: InMemory = field(default_factory=InMemory)
     _holds: bool = field(default=False, init=False, repr=False)
 

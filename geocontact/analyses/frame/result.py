@@ -211,12 +211,13 @@ class Result(ABC):
         Pages come last: they show reservations that writing brought up.
         """
         from geocontact.analyses.frame.pages import (
+            Drawings,
             save_both,  # late, like all that draws: --help needs no numpy
             write_finished,
         )
         from geocontact.io.text.results import write_table
 
-        parts = self.parts
+        parts = {each for each in self.parts if each not in self.record.without}
         for name, table in self.tables().items() if "tables" in parts else ():
             if name in self.elsewhere:
                 continue
@@ -225,10 +226,11 @@ class Result(ABC):
                 write_table(table, folder, name, self.units(name))
             if about := self.refers_to(name):
                 self.record.tables[f"{name}.csv"] = about
-        drawings = {}
+        saved = {}
         for name, figure in self.figures().items() if "figures" in parts else ():
             _make_room(folder / name)
-            drawings[name] = save_both(figure, folder, name)
+            saved[name] = save_both(figure, folder, name)
+        drawings = Drawings(self.figures) if "figures" in self.record.without else saved
         for name, page in self._pages(drawings).items() if "pages" in parts else ():
             _make_room(folder / name)
             home = name.rpartition("/")[0]

@@ -1,0 +1,265 @@
+"""What a study evaluates: an address for every evaluation of every step as soon as its inputs are known.
+
+A step whose inputs are results of others gets its address when these are there. Results of equal content therefore lead
+to the same results again, however they came about.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import chdir
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from geocontact.analyses.catalogue import job_named
+from geocontact.analyses.frame import source_digest
+from geocontact.analyses.frame.collector import listener, note
+from geocontact.analyses.frame.consent import ALLOWED, foreign, require_consent
+from geocontact.analyses.frame.folder import is_kept
+from geocontact.analyses.frame.job import Job
+from geocontact.analyses.frame.options import declared
+from geocontact.analyses.frame.result import Part
+from geocontact.data.errors import InputError
+from geocontact.study.address import Digests, address_of, options_of
+from geocontact.study.description import StudyFile
+from geocontact.study.options import CohortOptions
+from geocontact.study.steps import StepRun, with_files
+from geocontact.study.store import Store
+from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
+from geocontact.study.trials import CohortTrial
+from geocontact.study.workers import outcomes, workers_of
+
+WITHOUT = "without input"
+"""State of an evaluation that takes from one that has no results."""
+LEFT = "not asked for"
+"""State of one without results that the call leaves as it is."""
+PLANNED = "to evaluate"
+"""State of one that a dry run would evaluate."""
+
+
+@dataclass
+class Evaluation:
+    """An evaluation of a step and what is known of it.
+
+    Parameters
+    ----------
+    run
+        Of what.
+    address
+        Of its results, "" while its inputs are not known or where its options cannot be.
+    outcome
+        None before it has ended.
+    kept
+        Whether its results were there before.
+    """
+
+    run: StepRun
+    address: str = ""
+    outcome: TrialOutcome | None = None
+    kept: bool = False
+
+    @property
+    def state(self) -> str:
+        """What became of it."""
+        return PLANNED if self.outcome is None else self.outcome.state
+
+    @property
+    def trial(self) -> CohortTrial:
+        """What it is of."""
+        return self.run.trial
+
+
+class StudyPlan:
+    """All evaluations of a study, those that are to be made among them.
+
+    Parameters
+    ----------
+    asked
+        Whether an evaluation that has no results is made.
+    """
+
+    def __init__(
+        self,
+        study: StudyFile,
+        runs: Sequence[StepRun],
+        store: Store,
+        o: CohortOptions,
+        asked: Callable[[StepRun], bool],
+    ) -> None:
+        self.study, self.store, self._o, self._asked = study, store, o, asked
+        self.evaluations = [Evaluation(run) for run in runs]
+        self._digests = Digests()
+        self._users: dict[int, list[int]] = {}
+        for k, run in enumerate(runs):
+            for source in (each for some in run.takes.values() for each in some):
+                self._users.setdefault(source, []).append(k)
+        self._waiting: deque[TrialTask] = deque()
+        self._at: dict[str, list[int]] = {}
+        self._became: dict[str, TrialOutcome] = {}
+        self._named: list[str] = []
+        self._ended: list[int] = []
+        self._run_id = secrets.token_hex(8)
+        wanted: dict[Part, bool] = {"pages": study.pages, "figures": study.figures}
+        self._without = frozenset(name for name, is_wanted in wanted.items() if not is_wanted)
+
+    def look(self) -> None:
+        """Find what is there and what can be evaluated at once.
+
+        InputError where a file names what the call does not allow to be started.
+        """
+        analyses = list(dict.fromkeys(one.run.analysis for one in self.evaluations))
+        self._consent([f"the module of {each!r}" for each in analyses if foreign(each)], said=False)
+        for k, one in enumerate(self.evaluations):
+            if one.outcome is None and not one.address:
+                self._settle(k)
+        self._consent(self._named, said=True)
+
+    def _consent(self, named: Sequence[str], *, said: bool) -> None:
+        own = [one.run.analysis for one in self.evaluations if foreign(one.run.analysis)] if said else []
+        modules = [f"the module of {each!r}" for each in dict.fromkeys(own)]
+        line = require_consent([*modules, *named], self._o.run_simulator, self.study.path)
+        if line and said:
+            listener().fail(line)
+
+    @cached_property
+    def _jobs(self) -> dict[str, Job[Any, Any]]:
+        return {each: job_named(each) for each in dict.fromkeys(one.run.analysis for one in self.evaluations)}
+
+    @cached_property
+    def _anew(self) -> set[str]:
+        """Steps that are evaluated although their results are there."""
+        found = {self._o.from_step}
+        for one in self.evaluations:  # each after those that it takes from
+            if {*one.run.takes} & found:
+                found.add(one.run.step)
+        return {each for each in (*found, self._o.forget) if each is not None}
+
+    def _settle(self, k: int) -> None:
+        """Find what becomes of an evaluation whose inputs may be known, and of those that wait for it."""
+        one = self.evaluations[k]
+        sources = [self.evaluations[j] for some in one.run.takes.values() for j in some]
+        if any(each.outcome is None for each in sources):
+            return
+        lacking = next((each for each in sources if each.state != DONE), None)
+        if lacking is not None:
+            state = LEFT if lacking.state == LEFT else WITHOUT
+            self._end(k, TrialOutcome(state, f"needs {lacking.run.step} of {lacking.trial.name}"))
+            return
+        try:
+            task, programs = self._task(one)
+        except InputError as error:
+            self._end(k, TrialOutcome(WRONG, str(error)))
+            return
+        one.address = task.address
+        if task.address in self._became:
+            self._end(k, self._became[task.address])
+        elif one.run.step not in self._anew and self._holds(task):
+            one.kept = True
+            self._end(k, TrialOutcome(DONE))
+        elif not self._asked(one.run):
+            self._end(k, TrialOutcome(LEFT, "has no results, and is left as it is"))
+        else:
+            self._named += programs
+            if task.address not in self._at:
+                self._waiting.append(task)
+            self._at.setdefault(task.address, []).append(k)
+
+    def _end(self, k: int, outcome: TrialOutcome) -> None:
+        self.evaluations[k].outcome = outcome
+        self._ended.append(k)
+        for each in self._users.get(k, ()):
+            self._settle(each)
+
+    def _holds(self, task: TrialTask) -> bool:
+        return self.store.holds(task.address, self.study.home, self._digests, task.taken)
+
+    def _task(self, one: Evaluation) -> tuple[TrialTask, list[str]]:
+        """The task of an evaluation whose inputs are there, and what it would start."""
+        job, home = self._jobs[one.run.analysis], self.study.home
+        places = {name: [self._folder(j) for j in some] for name, some in one.run.takes.items()}
+        options = with_files(one.run, places, self.study)
+        if self._o.run_simulator and any(each.name == ALLOWED for each in declared(job.options)):
+            options = {**options, ALLOWED: True}
+        one.run = replace(one.run, trial=replace(one.trial, options=options))
+        with chdir(home):
+            read = options_of(job.options, options)
+            read.refuse_missing_files()
+            programs = list(read.programs())
+        taken = tuple(place for some in places.values() for place in some)
+        address = address_of(job, read, home, self._digests, taken, self._without)
+        task = TrialTask(
+            one.run.analysis,
+            options,
+            home,
+            self.store,
+            address,
+            self._sources,
+            self._run_id,
+            self._o.limit,
+            one.run.step,
+            taken,
+            self._without,
+        )
+        return task, programs
+
+    @cached_property
+    def _sources(self) -> str:
+        return source_digest.digest()
+
+    def _folder(self, k: int) -> str:
+        """Results of an evaluation, as a path from the study's folder."""
+        place = self.store.place(self.evaluations[k].address)
+        try:
+            return Path(os.path.relpath(place, self.study.home)).as_posix()
+        except ValueError:  # on another drive
+            return place.as_posix()
+
+    def __iter__(self) -> Iterator[TrialTask]:
+        """Tasks that can be evaluated; more of them come as others end."""
+        return self
+
+    def __next__(self) -> TrialTask:
+        """The next task; StopIteration where none is known at present."""
+        if not self._waiting:
+            raise StopIteration
+        task = self._waiting.popleft()
+        self.store.forget(task.address)
+        return task
+
+    def evaluate(self, after: Callable[[Evaluation], None]) -> None:
+        """Evaluate what is missing; `after` is called with each evaluation that has results, as they come."""
+        for one in (each for each in self.evaluations if each.state == DONE):
+            is_kept(self.store.folder)
+            after(one)
+        missing = sum(one.outcome is None for one in self.evaluations)
+        if not missing:
+            return
+        with workers_of(self._o) as workers, listener().progress("trials", missing) as step:
+            started, spent = time.perf_counter(), 0.0
+            for task, outcome in outcomes(workers, self):
+                if outcome.state == STOPPED:
+                    line = f"{outcome.line}; finished trials stay: run it again when that is mended"
+                    raise OSError(errno.EIO, line, str(task.store.folder))
+                named = len(self._named)
+                self._ended.clear()
+                self._became[task.address] = outcome
+                for k in self._at.pop(task.address):
+                    self._end(k, outcome)
+                if self._named[named:]:
+                    self._consent(self._named[named:], said=True)
+                spent += outcome.seconds
+                if outcome.state == DONE:
+                    is_kept(task.store.folder)
+                for one in (self.evaluations[k] for k in self._ended):
+                    step()
+                    if one.state == DONE:
+                        after(one)
+            note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": workers.threads()})
+            note("one_by_one", {"seconds": round(spent, 3)})

@@ -1,0 +1,230 @@
+"""Studies of several steps: each takes from others what belongs to it, and only what changed is evaluated again."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from geocontact.data.errors import InputError
+from geocontact.study.description import read_study_file
+from geocontact.study.steps import runs_of
+from tests.cli.calls import Call, call
+from tests.study.chained import NUMBERS, OWN, chain, sine
+
+STEPS = {"offset": 2, "sum": 4, "sine": 4, "all": 1, "tests_study_chained_add": 2}
+"""Evaluations of each step."""
+
+
+def cohort(file: Path, out: Path, scheduler: str, *more: str) -> Call:
+    return call("cohort", file, "--run-simulator", "--scheduler", scheduler, "--out", out, *more, folder=out)
+
+
+def states(out: Path) -> pd.DataFrame:
+    return pd.read_csv(out / "trials.csv", keep_default_na=False).set_index(["step", "name"])
+
+
+def new(done: Call) -> list[int]:
+    """How many evaluations are new, by step."""
+    return [int(each) for each in re.findall(r"(\d+) of them new", done.out)]
+
+
+def test_steps_take_from_each_other_by_trial_by_subject_and_over_all(tmp_path: Path, scheduler: str) -> None:
+    """Every number is that of the same sums done here."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    done = cohort(file, out, scheduler)
+    assert done.code == 0, done.err
+    found = states(out)
+    assert {step: len(rows) for step, rows in found.groupby("step")} == STEPS and set(found["state"]) == {"done"}
+    sums = {"A 1": 11.0, "A 2": 21.0, "B 1": 32.0, "B 2": 42.0}
+    table = pd.read_parquet(out / "tables" / "sum" / "total.parquet").set_index("name")["total [N]"]
+    assert table.to_dict() == sums
+    (total,) = pd.read_parquet(out / "tables" / "all" / "total.parquet")["total [N]"]
+    assert total == sum(sums.values())
+    own = pd.read_parquet(out / "tables" / "tests_study_chained_add" / "total.parquet").set_index("subject")
+    for subject in "AB":
+        wanted = sum(sine(value) for name, value in sums.items() if name.startswith(subject))
+        assert own["total [N]"][subject] == pytest.approx(wanted, rel=1e-9)
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert "Steps of the study" in page and sorted(new(done)) == sorted(STEPS.values())
+    again = cohort(file, out, scheduler)
+    assert set(new(again)) == {0} and again.code == 0
+
+
+def test_only_the_chain_of_what_changed_is_evaluated_again(tmp_path: Path, scheduler: str) -> None:
+    """A file at rest of B: its offset, two sums, two sines and its total, and the sum over all; nothing of A."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    before = cohort(file, out, scheduler)
+    assert before.code == 0, before.err
+    first = states(out)["folder"]
+    (tmp_path / "B_still.txt").write_text("5", encoding="utf-8")
+    changed = cohort(file, out, scheduler)
+    assert changed.code == 0, changed.err
+    same = states(out)["folder"] == first
+    assert {name for _, name in same[~same].index} == {"B", "B 1", "B 2", "all"} and int((~same).sum()) == 7
+    assert sum(new(changed)) == 7
+
+
+def test_equal_files_lead_to_the_same_results_however_they_came_about(tmp_path: Path, scheduler: str) -> None:
+    """Another factor rounds to the same totals: the step is new, and none that takes from it."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    cohort(file, out, scheduler)
+    first = states(out)["folder"]
+    file.write_text(OWN.replace('{ files = "{file}" }', '{ files = "{file}", times = 1.1 }'), encoding="utf-8")
+    again = cohort(file, out, scheduler)
+    assert again.code == 0 and sum(new(again)) == 2
+    same = states(out)["folder"] == first
+    assert [step for step, _ in same[~same].index] == ["offset", "offset"]
+    cleaned = cohort(file, out, scheduler, "--clean-up")
+    assert "removed what no description asks for: 2 results" in cleaned.out
+    still = cohort(file, out, scheduler)
+    assert sum(new(still)) == 0, "results whose source was removed are still those of equal files"
+
+
+def test_a_study_and_results_that_were_moved_apart_are_all_there(tmp_path: Path, scheduler: str) -> None:
+    """Earlier results have other paths from the study then: they count by content."""
+    old, moved, out = tmp_path / "old", tmp_path / "moved", tmp_path / "elsewhere" / "results_of_it"
+    old.mkdir()
+    out.parent.mkdir()
+    cohort(chain(old, NUMBERS), old / "out", scheduler)
+    shutil.move(old / "out", out)
+    shutil.move(old, moved)
+    assert set(new(cohort(moved / "study.toml", out, scheduler))) == {0}
+
+
+def test_a_dry_run_says_what_a_run_would_evaluate_and_writes_nothing(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    planned = cohort(file, out, scheduler, "--dry-run")
+    assert planned.code == 0 and not out.exists()
+    assert "offset (tests.study.chained:add): 0 of 2 evaluations there; 2 to evaluate" in planned.out
+    assert ", after sum: 0 of 4 evaluations there; 4 to evaluate" in planned.out
+    cohort(file, out, scheduler)
+    kept = {each: each.read_bytes() for each in out.rglob("*") if each.is_file()}
+    (tmp_path / "A_1.txt").write_text("11", encoding="utf-8")
+    planned = cohort(file, out, scheduler, "--dry-run")
+    assert {each: each.read_bytes() for each in out.rglob("*") if each.is_file()} == kept
+    assert "after offset: 3 of 4 evaluations there; 1 to evaluate, about " in planned.out
+    assert "all of it: about " in planned.out and "no description asks for" not in planned.out
+    cohort(file, out, scheduler)
+    assert "no description asks for 4 results" in cohort(file, out, scheduler, "--dry-run").out
+
+
+def test_only_from_and_forget_choose_what_is_evaluated(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    part = cohort(file, out, scheduler, "--only", "subject=A")
+    assert part.code == 0, part.err
+    found = states(out)["state"]
+    assert set(found[[name.startswith("A") for _, name in found.index]]) == {"done"}
+    assert set(found[[not name.startswith("A") for _, name in found.index]]) == {"not asked for"}
+    whole = cohort(file, out, scheduler)
+    assert sum(new(whole)) == sum(STEPS.values()) - 6
+    times = {each: (out / each / "run.json").stat().st_mtime_ns for each in states(out)["folder"]}
+
+    def written_again(*more: str) -> list[str]:
+        assert cohort(file, out, scheduler, *more).code == 0
+        rows = states(out)["folder"]
+        found = [
+            step for (step, _), each in rows.items() if (out / each / "run.json").stat().st_mtime_ns != times[each]
+        ]
+        times.update({each: (out / each / "run.json").stat().st_mtime_ns for each in rows})
+        return found
+
+    assert written_again("--forget", "sum") == ["sum"] * 4, "its files came out the same"
+    assert written_again("--from", "sine") == ["sine"] * 4 + ["tests_study_chained_add"] * 2
+    refused = cohort(file, out, scheduler, "--from", "sun")
+    assert refused.code == 2 and "--from: no step is 'sun'; there are offset, sum, sine, all" in refused.err
+    refused = cohort(file, out, scheduler, "--only", "person=A")
+    assert refused.code == 2 and "--only: no trial has 'person'; names are subject, trial" in refused.err
+
+
+def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, {**NUMBERS, "B_1": "wrong"}), tmp_path / "out"
+    done = cohort(file, out, scheduler)
+    assert done.code == 2 and len([line for line in done.complaints if "is wrong" in line]) == 1
+    found = states(out)
+    assert found["state"]["sum", "B 1"] == "input error" and found["state"]["sine", "B 1"] == "without input"
+    assert found["words"]["sine", "B 1"] == "needs sum of B 1"
+    assert found["state"]["tests_study_chained_add", "B"] == found["state"]["all", "all"] == "without input"
+    assert set(found["state"].drop("B 1", level="name").drop(["B", "all"], level="name")) == {"done"}
+    (tmp_path / "B_1.txt").write_text("30", encoding="utf-8")
+    (tmp_path / "A_2.txt").write_text("21", encoding="utf-8")
+    mended = cohort(file, out, scheduler, "--redo-failed")
+    assert mended.code == 0, mended.err
+    found = states(out)["state"]
+    assert found["tests_study_chained_add", "B"] == "done" and found["sum", "A 2"] == "not asked for"
+
+
+def test_pages_and_figures_can_be_left_out(tmp_path: Path, scheduler: str) -> None:
+    numbers = {"A_still": "1", "A_1": "10", "A_2": "20"}
+    file, out = chain(tmp_path, numbers), tmp_path / "out"
+
+    def endings() -> set[str]:
+        return {each.suffix for folder in states(out).loc["sum"]["folder"] for each in (out / folder).iterdir()}
+
+    assert cohort(file, out, scheduler).code == 0 and ".html" in endings()
+    chain(tmp_path, numbers, "pages = false\nfigures = false\n")
+    bare = cohort(file, out, scheduler)
+    assert bare.code == 0 and sum(new(bare)) == 7 and ".html" not in endings()
+    assert {".csv", ".parquet", ".txt", ".json"} == endings()
+
+
+@pytest.mark.parametrize(
+    ("old", "text", "said"),
+    [
+        (
+            "{offset:",
+            "{ofset:",
+            "[steps.sum.options] files: there is no step 'ofset' before it; steps are offset, sine",
+        ),
+        ('{ files = "{file}" }', '{ files = "{sine:sine.csv}" }', "go in a circle; take from earlier steps only"),
+        ('per = ["subject"]\n\n', 'per = ["person"]\n\n', "per: no trial has 'person'; names are subject, trial"),
+        ('trial = ["still"]', 'trial = ["rest"]', "[steps.offset] where: no trial has these values"),
+        ('trial = ["still"]', 'trail = ["rest"]', "[steps.offset] where: no trial has 'trail'"),
+        (
+            '{ file = "{sum:total.txt}" }',
+            '{ file = "{file}" }\nper = []',
+            '[steps.sine.options] file: {file} stands for 4 values; write it in a list, ["{file}"], or choose trials',
+        ),
+        ("[steps.all]", "[steps.tests_study_chained_add]", "has the name of the study's own analysis"),
+        ("[steps.all]", '[steps."../all"]', "'../all' cannot be that of a file"),
+        ('trial = ["still"]', 'subject = ["A"], trial = ["still"]', "offset is not evaluated for B 1; see its `where`"),
+    ],
+)
+def test_a_description_of_steps_that_cannot_be_is_one_line(tmp_path: Path, old: str, text: str, said: str) -> None:
+    file = chain(tmp_path, NUMBERS)
+    assert old in OWN
+    file.write_text(OWN.replace(old, text), encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        runs_of(read_study_file(file))
+    assert said in str(refused.value) and str(refused.value).startswith(str(file))
+
+
+def test_files_of_several_evaluations_need_a_list_and_stay_in_their_folder(tmp_path: Path, scheduler: str) -> None:
+    for name, said in (
+        ('files = "{sine:sine.csv}"', "files: {sine:…} stands for 2 files in A; write it in a list"),
+        ('files = ["{sine:../trials.csv}"]', "files: '../trials.csv' leads out of the results of the step"),
+        ('files = ["{sine:cosine.csv}"]', "there is no such file"),
+    ):
+        file = chain(tmp_path, NUMBERS)
+        file.write_text(OWN.replace('files = ["{sine:sine.csv}"]', name), encoding="utf-8")
+        done = cohort(file, tmp_path / "out", scheduler)
+        assert done.code == 2 and said in done.err, done.err
+
+
+def test_a_step_that_two_trials_share_is_evaluated_once(tmp_path: Path, scheduler: str) -> None:
+    """The sum does not depend on the gain, the sine does."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = OWN.replace('file = "{sum:total.txt}"', 'file = "{sum:total.txt}", gain = "{gain}"')
+    file.write_text(f"{text}[vary]\ngain = [1, 3]\n", encoding="utf-8")
+    done = cohort(file, out, scheduler)
+    assert done.code == 0, done.err
+    rows = states(out)["folder"]
+    assert len(rows["sum"]) == 8 and rows["sum"].nunique() == 4 and rows["sine"].nunique() == 8
+    own = pd.read_parquet(out / "tables" / "tests_study_chained_add" / "total.parquet").set_index("subject")
+    assert own["total [N]"]["A"] == pytest.approx(4.0 * (sine(11.0) + sine(21.0)), rel=1e-9)
+    told = json.loads((out / rows["sine"].iloc[0] / "trial.json").read_text(encoding="utf-8"))
+    assert told["from"] == [f"out/{rows['sum'].iloc[0]}"]
