@@ -1,0 +1,85 @@
+"""Wrong inputs of which nothing or something else was said: each is heard of by its true cause; right ones are not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.misalignment.simulate.result import as_offset
+from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
+
+Attempt = Callable[[Path], Lines]
+
+
+def cup(half: float, rim: float, squeezed: float = 1.0, rough: float = 0.0) -> Attempt:
+    """Sphere fitted to a cap of radius 24 mm, out to `half` [deg], with a flat rim of a width [mm] around it."""
+
+    def attempt(folder: Path) -> Lines:
+        turn = np.radians(np.arange(0.0, half + 0.1, 4.0))[1:]
+        profile = [(24.0 * np.sin(p), -24.0 * squeezed * np.cos(p)) for p in turn]
+        r, y = profile[-1]
+        profile += [(r + w, y) for w in np.linspace(0.0, rim, int(rim / 0.5) + 1)[1:]]
+        around = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
+        places = np.array([(r * np.cos(a), y, r * np.sin(a)) for r, y in profile for a in around])
+        places += rough * np.random.default_rng(0).standard_normal(places.shape)
+        lines = [f"v {x} {y} {z}" for x, y, z in places]
+        for ring in range(0, 72 * (len(profile) - 1), 72):
+            for k in range(72):
+                a, b = ring + k + 1, ring + (k + 1) % 72 + 1
+                lines += [f"f {a} {b} {b + 72}", f"f {a} {b + 72} {a + 72}"]
+        (folder / "cup.obj").write_text("\n".join([*lines, ""]), encoding="utf-8")
+        return heard(gc.fit_shape, folder / "cup.obj", shape="sphere", unit="mm")
+
+    return attempt
+
+
+def remembered(**options: float) -> Attempt:
+    """Elbow simulate of one short trial."""
+    return lambda _: heard(gc.misalignment.simulate, trials=1, **options)
+
+
+FINDINGS: dict[str, Finding] = {
+    "fit: a shallow cup with its rim": Finding(cup(60.0, 6.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
+    "fit: the same, scanned": Finding(cup(60.0, 6.0, rough=0.1), "warned: .* 2(3.9|4.0). mm by the inner half"),
+    "fit: a glenoid with its rim": Finding(cup(34.0, 4.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
+    "elbow simulate: a memory of 10 s in 5 s": Finding(
+        remembered(memory=10.0, seconds=5.0), "warned: `memory`: 10 s beside trials of 5 s: 85% of the variance"
+    ),
+}
+RIGHT: dict[str, Attempt] = {
+    "a cup": cup(60.0, 0.0),
+    "a cup, scanned": cup(80.0, 0.0, rough=0.3),
+    "a cup that is no sphere": cup(80.0, 0.0, squeezed=1.1),
+    "a cup whose rim is ignored as an outlier": cup(90.0, 3.0, rough=0.05),
+    "elbow simulate: a memory of 1 s in 5 s": remembered(memory=1.0, seconds=5.0),
+    "elbow simulate: a memory of 10 s without noise": remembered(memory=10.0, seconds=5.0, noise=0.0),
+}
+
+
+@pytest.mark.parametrize("finding", as_parameters(FINDINGS))
+def test_a_wrong_input_is_heard_of_by_its_cause(finding: Finding, tmp_path: Path) -> None:
+    lines = finding.attempt(tmp_path)
+    assert any(re.search(finding.words, line) for line in lines), lines
+
+
+@pytest.mark.parametrize("attempt", RIGHT.values(), ids=RIGHT)
+def test_what_is_right_is_not_doubted(attempt: Attempt, tmp_path: Path) -> None:
+    words = "|".join(finding.words.partition(".*")[2] or finding.words for finding in FINDINGS.values())
+    assert not [line for line in attempt(tmp_path) if line.startswith("refused") or re.search(words, line)]
+
+
+def test_the_share_of_an_offset_is_that_of_many_draws() -> None:
+    """An autoregressive series of 400 steps, drawn 4000 times: the variance of its means over that of its values."""
+    rng, steps = np.random.default_rng(5), 400
+    keep = np.exp(-5.0 / steps / 4.0)  # a memory of 4 s over 5 s
+    series = np.empty((4000, steps))
+    series[:, 0] = rng.standard_normal(4000)
+    for k in range(1, steps):
+        series[:, k] = keep * series[:, k - 1] + np.sqrt(1.0 - keep**2) * rng.standard_normal(4000)
+    assert as_offset(4.0, 5.0) == pytest.approx(series.mean(axis=1).var() / series.var(), rel=0.06)
+    assert as_offset(0.0, 5.0) == 0.0
