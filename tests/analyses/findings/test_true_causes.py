@@ -10,8 +10,11 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.gap.case import odd_gains
 from geocontact.analyses.misalignment.simulate.result import as_offset
 from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
+from tests.analyses.findings.test_recordings import rewritten
+from tests.cli.gap_cases import damped_elbow
 
 Attempt = Callable[[Path], Lines]
 
@@ -43,12 +46,29 @@ def remembered(**options: float) -> Attempt:
     return lambda _: heard(gc.misalignment.simulate, trials=1, **options)
 
 
+def diagnosed(times: float, trial: str = "t03") -> Attempt:
+    """Gap diagnose of the damped elbow, of one trial whose force is multiplied."""
+
+    def attempt(folder: Path) -> Lines:
+        case = damped_elbow(folder / "elbow")
+        rewritten(case / "trials" / f"{trial}.csv", lambda t: t.__setitem__("force [N]", times * t["force [N]"]))
+        return heard(gc.diagnose, case)
+
+    return attempt
+
+
 FINDINGS: dict[str, Finding] = {
     "fit: a shallow cup with its rim": Finding(cup(60.0, 6.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
     "fit: the same, scanned": Finding(cup(60.0, 6.0, rough=0.1), "warned: .* 2(3.9|4.0). mm by the inner half"),
     "fit: a glenoid with its rim": Finding(cup(34.0, 4.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
     "elbow simulate: a memory of 10 s in 5 s": Finding(
         remembered(memory=10.0, seconds=5.0), "warned: `memory`: 10 s beside trials of 5 s: 85% of the variance"
+    ),
+    "diagnose: one held-out trial's force times 1.4": Finding(
+        diagnosed(1.4), "warned: trial t03: force is 1.40 times as large beside the model .*amplifier", slow=True
+    ),
+    "diagnose: one calibration trial's force times 1.4": Finding(
+        diagnosed(1.4, "t01"), "warned: trial t01: force is 1.40 times as large beside the model .*amplifier", slow=True
     ),
 }
 RIGHT: dict[str, Attempt] = {
@@ -83,3 +103,20 @@ def test_the_share_of_an_offset_is_that_of_many_draws() -> None:
         series[:, k] = keep * series[:, k - 1] + np.sqrt(1.0 - keep**2) * rng.standard_normal(4000)
     assert as_offset(4.0, 5.0) == pytest.approx(series.mean(axis=1).var() / series.var(), rel=0.06)
     assert as_offset(0.0, 5.0) == 0.0
+
+
+def test_a_gain_that_only_one_trial_has() -> None:
+    """Harmonics times gains that are known; an offset, and gains that differ in all trials, are none."""
+    rng, time = np.random.default_rng(2), np.linspace(0.0, 20.0, 400)
+    model = {f"t{k}": 3.0 * np.sin(time + k) + k for k in range(5)}
+
+    def said(gains: tuple[float, ...], offset: float = 0.0) -> list[str]:
+        made = zip(gains, model.items(), strict=True)
+        own = {name: gain * values + 0.1 * rng.standard_normal(400) for gain, (name, values) in made}
+        own["t2"] += offset
+        return odd_gains("force", own, model)
+
+    (line,) = said((1.0, 1.02, 0.7, 0.98, 1.0))
+    assert line.startswith("trial t2: force is 0.70 times as large beside the model as in the others (0.98 to 1.02)")
+    assert not said((1.0, 1.02, 1.1, 0.98, 1.0)) and not said((1.0, 1.02, 1.0, 0.98, 1.0), offset=2.0)
+    assert not said((0.8, 1.02, 1.4, 0.9, 1.2))
