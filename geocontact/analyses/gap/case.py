@@ -150,8 +150,9 @@ def odd_gains(
         with_own, with_usual = (float(np.linalg.norm(own - np.exp(each) * model)) for each in (gain, usual))
         if abs(gain - usual) > max(GAIN, WIDER * spread) and with_own < BETTER * with_usual:
             low, high = np.exp([others.min() - usual, others.max() - usual])
-            what = f"trial {name}: {channel} is {np.exp(gain - usual):.2f} times as large beside the model as in the others"
-            said.append(f"{what} ({low:.2f} to {high:.2f}); is its calibration, amplifier or unit another one?")
+            times = f"{np.exp(gain - usual):.2f} times as large beside the model as in the others"
+            what = f"trial {name}: {channel} is {times} ({low:.2f} to {high:.2f})"
+            said.append(f"{what}; is its calibration, amplifier or unit another one?")
     return said
 
 
