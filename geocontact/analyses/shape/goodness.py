@@ -12,7 +12,9 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.plausible import ROUNDED
-from geocontact.geometry.fit.found import ShapeFit
+from geocontact.geometry.fit.found import OUTLYING, ShapeFit
+from geocontact.geometry.fit.patch import Patch, looks
+from geocontact.geometry.fit.solver import FINEST
 from geocontact.geometry.fit.sphere import fit_sphere
 from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_size
 
@@ -28,6 +30,28 @@ INNER, EDGE = 0.5, 0.08
 """Share of a sphere's points, the nearest to the middle of the patch, whose radius is compared with that of all; and
 the share of it by which the two then differ. Ellipsoids with axes that differ by 10 % reach 0.065, caps of 30 to 80
 degrees with a rim of a sixth of the radius 0.14 to 0.44."""
+
+OPPOSITE, OTHER_SIDE = -0.5, 0.05
+"""Cosine between a face's normal and that of the shape, below which it looks the other way; and the share of the area
+of what lies on the shape that does."""
+
+
+def both_sides(name: str, fit: ShapeFit, patch: Patch) -> Iterable[Doubt]:
+    """Faces of a curved shape that look towards its centre among others that look away from it, as of a shell."""
+    if fit.radius is None:
+        return
+    surface, faces = patch.surface, patch.faces
+    corners = surface.vertices[surface.faces[faces]]
+    off = np.abs(fit.distance(corners.reshape(-1, 3))).reshape(-1, 3).mean(axis=1)
+    on_it = off <= max(OUTLYING * fit.quality.noise, FINEST)
+    area, cosine = surface.face_area[faces] * on_it, looks(patch, fit)
+    if not area.any():
+        return
+    away, towards = (float(area[which].sum() / area.sum()) for which in (cosine > -OPPOSITE, cosine < OPPOSITE))
+    if min(away, towards) > OTHER_SIDE:
+        said = f"{name}: {away:.0%} of the area look away from the {'centre' if fit.axis is None else 'axis'} and"
+        remedy = "are inside and outside, or a rim, among the faces? choose one side with `region`"
+        yield Doubt(f"{said} {towards:.0%} towards it: {remedy}", False, min(away, towards))
 
 
 def goodness_of_shape(

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -25,7 +25,7 @@ from geocontact.analyses.frame.collector import as_it_fits, if_it_fits, judge, l
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shape.fitting import ShapeInputs, describe, fit_table, profile_table, read, sagittal_about
-from geocontact.analyses.shape.goodness import FEW, POOR, goodness_of_shape, unsaid
+from geocontact.analyses.shape.goodness import FEW, POOR, both_sides, goodness_of_shape, unsaid
 from geocontact.analyses.shape.options import ShapeOptions
 from geocontact.analyses.shape.show import fit_figure, fit_page, profile_curves
 from geocontact.data.errors import InputError
@@ -145,13 +145,16 @@ def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
     with listener().stages(patch.surface.name) as at:
         at(f"{o.shape} through {len(patch.points)} points")
         whole, goodness = _fitted(patch.surface.name, patch.points, along, o)
+        shell = tuple(both_sides(patch.surface.name, whole, patch))
+        for doubt in shell:
+            reserve(doubt.what)
         sides = {}
         for name, (plane, side) in patch.sides.items():
             at(f"{o.shape} through the {name} points")
             own = patch.points[plane.height(patch.points) * side >= 0.0]
             sides[name], of_side = _fitted(name, own, whole.axis, o)
             judge(of_side, warned=True)
-        judge(goodness, warned=True)
+        judge(replace(goodness, doubts=(*goodness.doubts, *shell)), warned=True)
         for name, fit in {patch.surface.name: whole, **sides}.items():
             _report(name, fit)
         fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))

@@ -14,6 +14,7 @@ from geocontact.analyses.gap.case import odd_gains
 from geocontact.analyses.misalignment.simulate.result import as_offset
 from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
 from tests.analyses.findings.test_recordings import rewritten
+from tests.cli.calls import MESHES
 from tests.cli.gap_cases import damped_elbow
 
 Attempt = Callable[[Path], Lines]
@@ -61,6 +62,10 @@ FINDINGS: dict[str, Finding] = {
     "fit: a shallow cup with its rim": Finding(cup(60.0, 6.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
     "fit: the same, scanned": Finding(cup(60.0, 6.0, rough=0.1), "warned: .* 2(3.9|4.0). mm by the inner half"),
     "fit: a glenoid with its rim": Finding(cup(34.0, 4.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
+    "fit: a cup's cavity and its back": Finding(
+        lambda _: heard(gc.fit_shape, MESHES / "cup_r24.stl", shape="sphere", unit="mm"),
+        "warned: cup_r24.stl: .* of the area look away from the centre and .* towards it: are inside and outside",
+    ),
     "elbow simulate: a memory of 10 s in 5 s": Finding(
         remembered(memory=10.0, seconds=5.0), "warned: `memory`: 10 s beside trials of 5 s: 85% of the variance"
     ),
@@ -72,6 +77,9 @@ FINDINGS: dict[str, Finding] = {
     ),
 }
 RIGHT: dict[str, Attempt] = {
+    "a cup's cavity": lambda _: heard(
+        gc.fit_shape, MESHES / "cup_r24.stl", shape="sphere", unit="mm", centre="0,0,0", region="outward<-0.5"
+    ),
     "a cup": cup(60.0, 0.0),
     "a cup, scanned": cup(80.0, 0.0, rough=0.3),
     "a cup that is no sphere": cup(80.0, 0.0, squeezed=1.1),
