@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap.case import odd_gains
 from geocontact.analyses.misalignment.simulate.result import as_offset
-from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
+from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
+from geocontact.analyses.sit_to_stand.predict.predictions import read as read_predictions
+from tests.analyses.findings.heard import Finding, Lines, as_lines, as_parameters, heard, heard_reading
 from tests.analyses.findings.test_recordings import rewritten
+from tests.analyses.mat.samples import THIGH
+from tests.analyses.misalignment.trials import KNOWN, locked, recorded
 from tests.cli.calls import MESHES
 from tests.cli.gap_cases import damped_elbow
+from tests.trial_checks import test_commands as trials
 
 Attempt = Callable[[Path], Lines]
+Change = Callable[[pd.DataFrame], object]
 
 
 def cup(half: float, rim: float, squeezed: float = 1.0, rough: float = 0.0) -> Attempt:
@@ -58,6 +67,87 @@ def diagnosed(times: float, trial: str = "t03") -> Attempt:
     return attempt
 
 
+def in_unit(factor: float) -> Attempt:
+    """Mat of the shipped thigh, numbers of its cells times a factor below the same unit."""
+
+    def attempt(folder: Path) -> Lines:
+        there = trials.files_of(THIGH, folder)
+        table = pd.read_csv(there / "frames.csv", comment="#", skipinitialspace=True)
+        table[table.columns[1:]] *= factor
+        table.to_csv(there / "frames.csv", index=False)
+        files = {"layout": there / "layout.toml", "landmarks": there / "landmarks.csv"}
+        return heard(gc.mat, there / "frames.csv", surface=MESHES / "thigh.stl", unit="mm", cutoff=0.0, **files)
+
+    return attempt
+
+
+def pitched(sign: float) -> Attempt:
+    """Gap gather of two walks, of which one foot's pitch may have the other sign."""
+
+    def attempt(folder: Path) -> Lines:
+        there = trials.gather_files(folder)
+        rewritten(there / "t02.csv", lambda table: table.__setitem__("pitch [rad]", sign * table["pitch [rad]"]))
+        return as_lines(trials.gather(there))
+
+    return attempt
+
+
+def elbow_fitted(change: Change) -> Attempt:
+    """Elbow fit of three synthetic trials, of which the second is changed."""
+
+    def attempt(folder: Path) -> Lines:
+        files = locked(recorded(folder))
+        rewritten(files[1], change)
+        return heard(gc.misalignment.identify, files, **KNOWN)
+
+    return attempt
+
+
+def armed(copied: bool) -> Attempt:
+    """Shoulder simulate, up to its reading, with the right arm's markers for the left one's."""
+
+    def change(seen: Any, places: np.ndarray) -> np.ndarray:
+        for end in ("up", "dn") if copied else ():
+            left, right = (seen.names.index(f"humerus_{side}{end}") for side in "lr")
+            places[:, left] = places[:, right]
+        return places
+
+    def attempt(folder: Path) -> Lines:
+        there = trials.files_of(trials.OVERHEAD, folder)
+        trials.markers_changed("markers.trc", change)(there)
+        return as_lines(trials.shoulder(there))
+
+    return attempt
+
+
+def strapped(of: str) -> Attempt:
+    """Sit-to-stand predict, up to its reading, with the strap's force of another trial."""
+
+    def attempt(folder: Path) -> Lines:
+        worn = trials.files_of(MESHES / "standing_up_exoskeleton", folder)
+        held = trials.files_of(MESHES / "standing_up_held_out", folder)
+        if of:
+            shutil.copy(worn / f"{of}_strap.csv", held / "P1_strap.csv")
+        return heard_reading(
+            read_predictions, StandingPredictOptions, held / "study.toml", parameters=worn / "truth.csv",
+            against=worn / "study.toml",
+        )  # fmt: skip
+
+    return attempt
+
+
+def backwards(table: pd.DataFrame) -> None:
+    table["beta [deg]"] = table["beta [deg]"].to_numpy()[::-1]
+
+
+def from_the_other_end(table: pd.DataFrame) -> None:
+    table["beta [deg]"] = table["beta [deg]"].max() + table["beta [deg]"].min() - table["beta [deg]"]
+
+
+def turned(table: pd.DataFrame) -> None:
+    table["force [N]"] *= -1.0
+
+
 FINDINGS: dict[str, Finding] = {
     "fit: a shallow cup with its rim": Finding(cup(60.0, 6.0), "warned: .* 24.00 mm by the inner half .*is a rim, lip"),
     "fit: the same, scanned": Finding(cup(60.0, 6.0, rough=0.1), "warned: .* 2(3.9|4.0). mm by the inner half"),
@@ -75,6 +165,26 @@ FINDINGS: dict[str, Finding] = {
     "diagnose: one calibration trial's force times 1.4": Finding(
         diagnosed(1.4, "t01"), "warned: trial t01: force is 1.40 times as large beside the model .*amplifier", slow=True
     ),
+    "mat: mmHg under kPa": Finding(
+        in_unit(7.5),
+        "warned: .*reads 218.* kPa, and cells end at 60 kPa: are the pressures in .*29.* if they are in mmHg",
+    ),
+    "gather: pitch of one trial turned": Finding(pitched(-1.0), "warned: .*t02.csv pitch: with its sign turned"),
+    "elbow fit: an angle backwards in time": Finding(
+        elbow_fitted(backwards), r"refused: .*most likely its angle runs backwards in time \(1.00"
+    ),
+    "elbow fit: an angle from the other end": Finding(
+        elbow_fitted(from_the_other_end), "refused: .*most likely .*its angle is counted from the other end"
+    ),
+    "elbow fit: a force turned": Finding(
+        elbow_fitted(turned), "refused: .*most likely the sign of its force is turned"
+    ),
+    "shoulder: one arm twice": Finding(
+        armed(copied=True), "refused: .*the left upper arm are where those of the right one are.*columns are copied"
+    ),
+    "predict: the strap of another trial": Finding(
+        strapped("T2"), "refused: .*P1_strap.csv: runs from .*is it of another trial"
+    ),
 }
 RIGHT: dict[str, Attempt] = {
     "a cup's cavity": lambda _: heard(
@@ -86,6 +196,12 @@ RIGHT: dict[str, Attempt] = {
     "a cup whose rim is ignored as an outlier": cup(90.0, 3.0, rough=0.05),
     "elbow simulate: a memory of 1 s in 5 s": remembered(memory=1.0, seconds=5.0),
     "elbow simulate: a memory of 10 s without noise": remembered(memory=10.0, seconds=5.0, noise=0.0),
+    "mat": in_unit(1.0),
+    "mat: twice the pressures, within the cells' range": in_unit(2.0),
+    "gather": pitched(1.0),
+    "elbow fit": elbow_fitted(lambda _: None),
+    "shoulder: two arms": armed(copied=False),
+    "predict": strapped(""),
 }
 
 

@@ -35,6 +35,7 @@ from geocontact.axis_misalignment.prediction import (
     mirrored_r2,
     residuals_of,
     scale_line,
+    turned_words,
 )
 from geocontact.axis_misalignment.uncertainty import (
     Direction,
@@ -56,7 +57,7 @@ LEAST_BINS = 8  # that a fit is made to
 MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
 
 
-def require_bins(paths: Sequence[Path], data: Binned) -> None:
+def require_bins(paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned) -> None:
     """Refuse too few bins, name those that are missing inside the range reached, and a trial of the other sign."""
     bins = len(data.visits.edges) - 1
     reached = np.bincount(data.cells.place, minlength=bins) > 0
@@ -73,7 +74,7 @@ def require_bins(paths: Sequence[Path], data: Binned) -> None:
         edges = np.degrees(data.visits.edges)
         told = ", ".join(f"{edges[run[0]]:.0f}…{edges[run[-1] + 1]:.0f}°" for run in runs)
         reserve(f"no sample in {len(missing)} bins inside the range reached: {told}")
-    _refuse_mirrored(paths, data)
+    _refuse_mirrored(paths, recordings, data)
 
 
 def _require_noise(path: Path, data: Binned) -> None:
@@ -84,13 +85,15 @@ def _require_noise(path: Path, data: Binned) -> None:
         raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): noise sets the intervals")
 
 
-def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
+def _refuse_mirrored(paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned) -> None:
     """A trial whose force mirrors that of the others."""
-    for path, correlation in zip(paths, correlations_with_others(data, LEAST_BINS), strict=True):
+    for k, (path, correlation) in enumerate(zip(paths, correlations_with_others(data, LEAST_BINS), strict=True)):
         if correlation < MIRRORED:
+            width = float(data.visits.edges[1] - data.visits.edges[0])
             others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
             what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
-            raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
+            likely = turned_words(recordings, k, width, LEAST_BINS)
+            raise InputError(path, "", what, f"most likely {likely}: correct the file, or leave it out")
 
 
 def predicted(
@@ -347,7 +350,7 @@ def free_joint(o: IdentifyOptions, recordings: Sequence[ElbowRecording], locked:
     if not recordings or o.unlocked is None:
         return None
     data = binned(recordings, o.bin)
-    require_bins(o.unlocked, data)
+    require_bins(o.unlocked, recordings, data)
     stroke = recorded_stroke(bin_means(data))
     if stroke is None:
         what = "the compensation joint slides over fewer than three bins"
