@@ -58,15 +58,15 @@ ALIKE = 0.05
 """Difference of two correlations, below which neither cause is the likelier one."""
 
 
-def turned_words(recordings: Sequence[ElbowRecording], trial: int, width: float, least: int) -> str:
-    """Which of `TURNED` makes a trial go with the others, with its correlation: the best, and those as good."""
+def turned_words(recordings: Sequence[ElbowRecording], trial: int, width: float, least: int) -> tuple[float, str]:
+    """Which of `TURNED` makes a trial go with the others: the best correlation, and the causes that reach it."""
     found = {}
     for words, undone in TURNED.items():
         some = [*recordings[:trial], undone(recordings[trial]), *recordings[trial + 1 :]]
         found[words] = float(np.nan_to_num(correlations_with_others(binned(some, width), least)[trial], nan=-1.0))
     most = max(found.values())
     said = [f"{words} ({value:.2f} without that)" for words, value in found.items() if value >= most - ALIKE]
-    return ", or ".join(said)
+    return most, ", or ".join(said)
 
 
 @dataclass(frozen=True, eq=False)

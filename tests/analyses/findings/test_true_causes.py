@@ -14,9 +14,15 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap.case import odd_gains
+from geocontact.analyses.gap.gather.options import GatherOptions
+from geocontact.analyses.gap.gather.recordings import gathered
+from geocontact.analyses.gap.gather.recordings import read as read_gather
 from geocontact.analyses.misalignment.simulate.result import as_offset
+from geocontact.analyses.motion.inverse_dynamics.loads import read as read_id
+from geocontact.analyses.motion.inverse_dynamics.options import IdOptions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import read as read_predictions
+from tests import legs
 from tests.analyses.findings.heard import Finding, Lines, as_lines, as_parameters, heard, heard_reading
 from tests.analyses.findings.test_recordings import rewritten
 from tests.analyses.mat.samples import THIGH
@@ -87,7 +93,7 @@ def pitched(sign: float) -> Attempt:
     def attempt(folder: Path) -> Lines:
         there = trials.gather_files(folder)
         rewritten(there / "t02.csv", lambda table: table.__setitem__("pitch [rad]", sign * table["pitch [rad]"]))
-        return as_lines(trials.gather(there))
+        return heard_reading(lambda o: gathered(read_gather(o), o), GatherOptions, there / "gather.toml")
 
     return attempt
 
@@ -136,6 +142,30 @@ def strapped(of: str) -> Attempt:
     return attempt
 
 
+def jointed(lag: float = 0.0, seconds: float = 0.7) -> Attempt:
+    """Functional hip of the synthetic leg, the thigh's markers on a clock that is late [s]."""
+
+    def attempt(folder: Path) -> Lines:
+        _, model, time, values = legs.planted(folder, amplitude=2.5)
+        places = legs.markers_of(model, time, values)
+        late = model.marker_places(np.array([np.interp(time - lag, time, column) for column in values.T]).T)
+        thigh = [k for k, name in enumerate(places.names) if name.startswith("femur")]
+        places.positions[:, thigh] = late[:, thigh]
+        hip, knee = ("pelvis", "femur_r"), ("femur_r", "tibia_r")
+        first, second = (",".join(f"{body}{k}" for k in range(4)) for body in (hip if seconds > 0.5 else knee))
+        asked = {"first": first, "second": second, "axis": seconds < 0.5, "time": (0.2, 0.2 + seconds)}
+        return heard(gc.functional_joint, legs.trc_file(folder, places), **asked)
+
+    return attempt
+
+
+def of_one_knee(folder: Path) -> Lines:
+    """Id of the synthetic leg whose knee has the column of the hip."""
+    there = trials.trial_of("id", folder)
+    trials.columns_changed("swing.mot", lambda c: c.update(knee=c["hip_z"].copy()))(there)
+    return heard_reading(read_id, IdOptions, there / "swing.mot", model=there / "leg.osim", loads=there / "loads.xml")
+
+
 def backwards(table: pd.DataFrame) -> None:
     table["beta [deg]"] = table["beta [deg]"].to_numpy()[::-1]
 
@@ -169,9 +199,19 @@ FINDINGS: dict[str, Finding] = {
         in_unit(7.5),
         "warned: .*reads 218.* kPa, and cells end at 60 kPa: are the pressures in .*29.* if they are in mmHg",
     ),
-    "gather: pitch of one trial turned": Finding(pitched(-1.0), "warned: .*t02.csv pitch: with its sign turned"),
+    "gather: pitch of one trial turned": Finding(
+        pitched(-1.0), "warned: .*t02.csv pitch: with its sign turned the sole agrees"
+    ),
+    "joint: one segment 0.1 s late": Finding(
+        jointed(lag=0.1), "contradict.* of the second segment move 0.1[01] s later than those of the first.*one clock"
+    ),
+    "joint: 0.1 s of a trial": Finding(jointed(seconds=0.1), "warned: .*frames over 0.1 s are no movement"),
+    "id: a knee with the hip's column": Finding(
+        of_one_knee, "warned: .*knee has the values of hip_z, sample by sample"
+    ),
     "elbow fit: an angle backwards in time": Finding(
-        elbow_fitted(backwards), r"refused: .*most likely its angle runs backwards in time \(1.00"
+        elbow_fitted(backwards),
+        r"warned: .*does not go with .*most likely its angle runs backwards in time \((0.99|1.00)",
     ),
     "elbow fit: an angle from the other end": Finding(
         elbow_fitted(from_the_other_end), "refused: .*most likely .*its angle is counted from the other end"
@@ -199,6 +239,7 @@ RIGHT: dict[str, Attempt] = {
     "mat": in_unit(1.0),
     "mat: twice the pressures, within the cells' range": in_unit(2.0),
     "gather": pitched(1.0),
+    "joint": jointed(),
     "elbow fit": elbow_fitted(lambda _: None),
     "shoulder: two arms": armed(copied=False),
     "predict": strapped(""),
@@ -207,8 +248,10 @@ RIGHT: dict[str, Attempt] = {
 
 @pytest.mark.parametrize("finding", as_parameters(FINDINGS))
 def test_a_wrong_input_is_heard_of_by_its_cause(finding: Finding, tmp_path: Path) -> None:
+    """What is said first names it."""
     lines = finding.attempt(tmp_path)
-    assert any(re.search(finding.words, line) for line in lines), lines
+    loud = [line for line in lines if not line.startswith("said")]
+    assert loud and re.search(finding.words, loud[0]), lines
 
 
 @pytest.mark.parametrize("attempt", RIGHT.values(), ids=RIGHT)

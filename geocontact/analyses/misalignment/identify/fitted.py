@@ -54,6 +54,7 @@ from geocontact.identify.intervals.profile_likelihood import Profile
 
 ROUNDING = 1e-9  # of the force's range; less is no noise
 LEAST_BINS = 8  # that a fit is made to
+APART, TOGETHER = 0.5, 0.9  # correlation of a trial with the others below which it is looked at; that of what mends it
 MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
 
 
@@ -86,14 +87,19 @@ def _require_noise(path: Path, data: Binned) -> None:
 
 
 def _refuse_mirrored(paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned) -> None:
-    """A trial whose force mirrors that of the others."""
+    """A trial whose force mirrors that of the others; a warning where it does not go with them and would, if turned."""
+    width = float(data.visits.edges[1] - data.visits.edges[0])
     for k, (path, correlation) in enumerate(zip(paths, correlations_with_others(data, LEAST_BINS), strict=True)):
+        if not correlation < APART:
+            continue
+        most, likely = turned_words(recordings, k, width, LEAST_BINS)
+        others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
+        at = f"(correlation {correlation:.2f} over the bins)"
+        remedy = f"most likely {likely}: correct the file, or leave it out"
         if correlation < MIRRORED:
-            width = float(data.visits.edges[1] - data.visits.edges[0])
-            others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
-            what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
-            likely = turned_words(recordings, k, width, LEAST_BINS)
-            raise InputError(path, "", what, f"most likely {likely}: correct the file, or leave it out")
+            raise InputError(path, "", f"its force mirrors that of {others_are} {at}", remedy)
+        if most > TOGETHER:
+            reserve(f"{path}: its force does not go with that of {others_are} {at}; {remedy}", cause=True)
 
 
 def predicted(
