@@ -10,10 +10,11 @@ import json
 from collections.abc import Iterable, Sequence
 
 from geocontact.analyses.catalogue import ENTRIES
+from geocontact.analyses.gap.case import GAIN, WIDER
 from geocontact.analyses.mat.goodness import LOST, PALPATED
 from geocontact.analyses.motion.goodness import SLIDING
 from geocontact.analyses.motion.marker_tasks import FAR
-from geocontact.analyses.shape.goodness import POOR
+from geocontact.analyses.shape.goodness import EDGE, OTHER_SIDE, POOR
 from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
 from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
@@ -88,6 +89,9 @@ OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advis
 | load of `id` with the foot under it | | nearer to the other foot |
 | joint of one segment with that of the other | rms > {2e3 * SLIDING:g} mm | rms > {1e3 * FAR:g} mm |
 | cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |
+| sphere with that of the inner half of its points, `fit` | {EDGE:.0%} of the radius, intervals apart | |
+| sides that faces of a cylinder or sphere look to, `fit` | {OTHER_SIDE:.0%} of the area look the other way | |
+| gain of a trial beside the model with others', `gap diagnose` | {GAIN:.0%}, {WIDER:g} of their spreads | |
 | what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
 | landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 """

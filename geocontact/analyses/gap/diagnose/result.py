@@ -43,6 +43,7 @@ from geocontact.data.version import VERSION
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.diagnose import diagnose as findings_of
 from geocontact.gap.held_out_fit import goodness_of_diagnosis, without_claims
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.io.text.results import CASES
 
 if TYPE_CHECKING:
@@ -135,8 +136,10 @@ def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     """Diagnosis, and what is found in words."""
     with listener().stages(o.case.resolve().name) as at:
         found = findings_of(given.case, given.system, VERSION, at)
-    for line in gain_doubts(found):
+    gains = gain_doubts(found)
+    for line in gains:
         reserve(line)
+    judge(GoodnessOfFit(tuple(Doubt(line, False) for line in gains), ("gains of the trials",)), warned=True)
     findings = _held_to(found)
     note(
         "diagnosis",
