@@ -71,7 +71,7 @@ def standing_on(seen: MarkerTrajectories, file: Path, turn: Rotation | None, c3d
     except InputError:
         return StandsOn()
     plates = read if turn is None else tuple(plate.turned(turn) for plate in read)
-    normal = sum(np.nan_to_num(plate.wrench.force @ plate.normal) for plate in plates)
+    normal = np.sum([np.nan_to_num(plate.wrench.force @ plate.normal) for plate in plates], axis=0)
     time = plates[0].time
     count = round(STEADY_FOR / float(np.median(np.diff(time)))) if len(time) > 1 else 0
     if not 1 < count <= len(time):

@@ -18,6 +18,7 @@ from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOpti
 from geocontact.analyses.sit_to_stand.predict.predictions import read as read_predictions
 from geocontact.io.cases.gap_case import read_gap_case
 from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard, heard_reading
+from tests.analyses.findings.test_recordings import rewritten
 from tests.analyses.misalignment.test_compare import law
 from tests.analyses.misalignment.trials import STROKE, free, locked, recorded
 from tests.cli.calls import MESHES
@@ -76,6 +77,7 @@ def predicted(*copied: str) -> Attempt:
         for file, column in changes.items():
             if file not in copied:
                 trials.columns_changed(f"T2_{file}", lambda c, column=column: c.update({column: c[column] + 0.01}))(own)
+        rewritten(own / "T2_strap.csv", lambda t: t.__setitem__(t.columns[1], t[t.columns[1]] + 0.1))
         return heard_reading(
             read_predictions, StandingPredictOptions, own / "study.toml", parameters=known / "truth.csv",
             against=known / "study.toml",
