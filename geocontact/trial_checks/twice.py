@@ -84,20 +84,20 @@ def coordinates_twice(trial: TrialInputs) -> Iterator[Contradiction]:
 COPY_CHECKS = (
     Check(
         "standing trial twice",
-        "markers of the trial with those of the standing trial, frame by frame",
-        "refused where all are equal",
+        "markers of the trial with those of the standing trial",
+        "all equal",
         standing_twice,
     ),
     Check(
         "one marker twice",
-        "the place of each marker with that of every other",
-        f"two at one place, to {1e6 * SAME:.0f} µm, in all of {STILL_FOR} frames or more",
+        "places of markers with each other",
+        f"equal in all frames, {STILL_FOR} or more",
         markers_twice,
     ),
     Check(
         "one coordinate twice",
-        "the course of each coordinate with that of every other, unless right and left are alike in all",
-        f"equal in every sample while it changes by {MOVES[0]:g} rad or {1e3 * MOVES[1]:g} mm",
+        "courses of coordinates with each other, unless all of right and left are alike",
+        "equal in all samples",
         coordinates_twice,
     ),
 )
