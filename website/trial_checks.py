@@ -10,10 +10,11 @@ import json
 from collections.abc import Iterable, Sequence
 
 from geocontact.analyses.catalogue import ENTRIES
+from geocontact.analyses.gap.case import GAIN, WIDER
 from geocontact.analyses.mat.goodness import LOST, PALPATED
 from geocontact.analyses.motion.goodness import SLIDING
 from geocontact.analyses.motion.marker_tasks import FAR
-from geocontact.analyses.shape.goodness import POOR
+from geocontact.analyses.shape.goodness import EDGE, OTHER_SIDE, POOR
 from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
 from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
@@ -44,17 +45,16 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 BATTERY = """
 Over the commands, the shipped trials are damaged in {count} ways, each refused or warned of with its cause:
 {counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
-{meshes} sets of surfaces pass without a warning but of jumps that are in two files: in a `.trc` of a published set
-two markers of the left foot jump by 43 and 54 mm within one frame, and in a `.c3d` of c3d.org one marker of the shank
-by 40 mm for one frame, in the files themselves.
+{meshes} sets of surfaces pass without a warning but of jumps of 40 to 54 mm that two
+files hold.
 
-`--axes` turns markers and plates alike: forces, moments, points. A table of plates whose forces are upwards before that
-turn and not after it is in the model's axes already: it stays as it is, with a warning.
+`--axes` turns markers and plates alike: forces, moments, points. Plates whose forces are upwards only before that turn
+stay as they are, with a warning.
 
-What no check can see: the plates of another trial of the same person on the same spot, whose steps fall on the same
-times; half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate in a table shows where
-no foot swings; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which
-are not whole.
+What no check can see: plates of another trial of the same person, whose steps fall on the same places and times;
+half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate in a table shows where no foot
+swings; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
+whole.
 
 Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).
@@ -88,6 +88,9 @@ OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advis
 | load of `id` with the foot under it | | nearer to the other foot |
 | joint of one segment with that of the other | rms > {2e3 * SLIDING:g} mm | rms > {1e3 * FAR:g} mm |
 | cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |
+| sphere with that of its inner half, `fit` | {EDGE:.0%} of the radius, intervals apart | |
+| faces that look the other way, `fit` | {OTHER_SIDE:.0%} of the area | |
+| gain of a trial with others', `gap diagnose` | {GAIN:.0%}, {WIDER:g} of their spreads | |
 | what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
 | landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 """

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.axis_misalignment.bins import FORCE, Binned
+from geocontact.axis_misalignment.bins import FORCE, Binned, binned
 from geocontact.axis_misalignment.least_squares import (
     ElbowFit,
     Excess,
@@ -46,6 +46,27 @@ def correlations_with_others(data: Binned, least: int) -> Float[np.ndarray, " tr
         if both.sum() >= least:
             found[trial] = np.corrcoef(mine.means[both, FORCE], mean[mine.place][both])[0, 1]
     return found
+
+
+TURNED: Mapping[str, Callable[[ElbowRecording], ElbowRecording]] = {
+    "the sign of its force is turned": lambda r: replace(r, force=-r.force),
+    "its angle runs backwards in time": lambda r: replace(r, beta=r.beta[::-1].copy()),
+    "its angle is counted from the other end": lambda r: replace(r, beta=r.beta.min() + r.beta.max() - r.beta),
+}
+"""What makes the force of a trial mirror that of the others over the angle, and what undoes it."""
+ALIKE = 0.05
+"""Difference of two correlations, below which neither cause is the likelier one."""
+
+
+def turned_words(recordings: Sequence[ElbowRecording], trial: int, width: float, least: int) -> tuple[float, str]:
+    """Which of `TURNED` makes a trial go with the others: the best correlation, and the causes that reach it."""
+    found = {}
+    for words, undone in TURNED.items():
+        some = [*recordings[:trial], undone(recordings[trial]), *recordings[trial + 1 :]]
+        found[words] = float(np.nan_to_num(correlations_with_others(binned(some, width), least)[trial], nan=-1.0))
+    most = max(found.values())
+    said = [f"{words} ({value:.2f} without that)" for words, value in found.items() if value >= most - ALIKE]
+    return most, ", or ".join(said)
 
 
 @dataclass(frozen=True, eq=False)

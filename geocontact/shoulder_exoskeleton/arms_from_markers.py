@@ -7,6 +7,7 @@ and the place of the human shoulder.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Literal
 
 import numpy as np
@@ -154,7 +155,13 @@ BEHIND = 0.05
 
 
 def require_sense(source: str, arms: tuple[ArmMotion, ...]) -> None:
-    """Upright, arms on their sides, shoulders before the bar."""
+    """Two arms and not one twice, upright, arms on their sides, shoulders before the bar."""
+    for one, other in combinations(arms, 2):
+        if np.array_equal(one.shoulder, other.shoulder, equal_nan=True):
+            what = (
+                f"the markers of the {other.side} upper arm are where those of the {one.side} one are, in every frame"
+            )
+            raise InputError(source, "", what, "columns are copied: give each arm its own, or leave one arm out")
     gravity = np.nanmedian(arms[0].gravity_at_frames(), axis=0)
     tilt = float(np.arctan2(np.hypot(gravity[0], gravity[1]), -gravity[2]))
     if tilt > STEEPEST:

@@ -154,7 +154,8 @@ def standing_weight(trial: TrialInputs) -> Iterator[Contradiction]:
             f"by the plates it is {normal / GRAVITY:.1f} kg: check {trial.mass_option}, and that no plate is missing"
         )
         what += f" {trial.stands_at:.2f} s"
-        yield Contradiction(trial.plates[0].source, names, what, remedy, refuse=abs(share - 1.0) > OTHER_WEIGHT)
+        refuse = trial.surely and abs(share - 1.0) > OTHER_WEIGHT
+        yield Contradiction(trial.plates[0].source, names, what, remedy, refuse=refuse)
 
 
 def sizes(trial: TrialInputs) -> Iterator[Contradiction]:

@@ -119,6 +119,8 @@ class TrialInputs:
         How the user gave it, for messages: an option or a key of a file.
     stands_at
         Time at which the person stands on the plates, all together, and hardly moves [s]; None where none is known.
+    surely
+        Whether both feet are known to be on these plates then, and not only that the load is steady.
     floor
         Height of the floor that the analysis takes [m]; None where it takes none.
     up
@@ -141,6 +143,7 @@ class TrialInputs:
     upper_arm: float | None = None
     mass_option: str = "`mass`"
     stands_at: float | None = None
+    surely: bool = True
     floor: float | None = None
     up: Float[np.ndarray, " 3"] = field(default_factory=UP.copy)
     turn: Rotation | None = None

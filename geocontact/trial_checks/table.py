@@ -10,8 +10,16 @@ from geocontact.trial_checks.foot_checks import FOOT_CHECKS
 from geocontact.trial_checks.marker_checks import MARKER_CHECKS
 from geocontact.trial_checks.plate_checks import PLATE_CHECKS
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+from geocontact.trial_checks.twice import COPY_CHECKS
 
-CHECKS: tuple[Check, ...] = (*MARKER_CHECKS, *PLATE_CHECKS, *FOOT_CHECKS, *BODY_CHECKS, *CHANNEL_CHECKS)
+CHECKS: tuple[Check, ...] = (
+    *COPY_CHECKS,
+    *MARKER_CHECKS,
+    *PLATE_CHECKS,
+    *FOOT_CHECKS,
+    *BODY_CHECKS,
+    *CHANNEL_CHECKS,
+)
 """Every check of a recorded trial."""
 
 

@@ -173,7 +173,23 @@ def cut(first: float, last: float) -> Change:
     return damage
 
 
+def uneven(copied: bool) -> Change:
+    """Right hip and knee bend less than the left ones, or the right knee's column is the left one's."""
+
+    def change(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        assert trial.moved is not None
+        columns = [c.name for c in trial.moved.model.coordinates]
+        values = trial.moved.values.copy()
+        values[:, columns.index("hip_r")] *= 0.96
+        values[:, columns.index("knee_r")] *= 1.0 if copied else 0.96
+        return replace(trial, moved=replace(trial.moved, values=values))
+
+    return change
+
+
 DAMAGED: dict[str, tuple[str, Change]] = {
+    "a knee's column copied": ("one coordinate twice", uneven(copied=True)),
     "radians as degrees": ("angles in degrees", angled(np.radians)),
     "sign of all angles": ("range of a coordinate", angled(np.negative)),
     "a plate 0.1 s late under who rises": ("weight in time", later(0.1)),
@@ -199,6 +215,7 @@ DAMAGED: dict[str, tuple[str, Change]] = {
 }
 NEARLY: dict[str, Change] = {
     "who rises": lambda _: risen(),
+    "who rises unevenly": uneven(copied=False),
     "who hardly moves, in degrees": angled(lambda q: np.radians(0.2) * q / np.abs(q).max()),
     "knees 8 degrees beyond their range": angled(lambda q: np.full_like(q, np.radians(20.0))),
     "feet 30 mm aside": aside(0.03),

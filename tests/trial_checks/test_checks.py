@@ -241,6 +241,22 @@ def held(frames: int) -> Callable[[np.ndarray], np.ndarray]:
     return change
 
 
+def doubled(by: float) -> Callable[[np.ndarray], np.ndarray]:
+    """The left PSIS at the place of the left ASIS, or so far above it [m]."""
+
+    def change(places: np.ndarray) -> np.ndarray:
+        places[:, 9] = places[:, 8] + np.array([0.0, by, 0.0])
+        return places
+
+    return change
+
+
+def part(seen: MarkerTrajectories | None, frames: int) -> MarkerTrajectories:
+    """Some frames in the swing of the left foot, in which all of that foot keeps its distances to all others."""
+    assert seen is not None
+    return MarkerTrajectories(seen.time[90 : 90 + frames], seen.positions[90 : 90 + frames], seen.names, seen.source)
+
+
 def carried(kilograms: float) -> Callable[[TrialInputs], TrialInputs]:
     """A person whose upper arm is 0.3 m long, which belongs to 1.61 m."""
     return lambda _: TrialInputs(mass=kilograms, upper_arm=0.3)
@@ -288,6 +304,8 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a plate 0.1 s early": ("clock", lambda t: plated(t, later(-0.1))),
     "a marker that slips by 40 mm": ("one segment", lambda t: moved(replace(t, standing=None), slipping(0.04))),
     "thigh markers that part": ("one segment", labelled("RTH")),
+    "the walk for the standing trial": ("standing trial twice", lambda t: replace(t, standing=t.markers)),
+    "a marker's column copied": ("one marker twice", lambda t: moved(replace(t, standing=None), doubled(0.0))),
     "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
     "82 kg in pounds": ("mass and upper arm", carried(181.0)),
     **modelled.DAMAGED,
@@ -310,6 +328,8 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "corners 0.25 m away": lambda t: plated(t, edged(0.25)),
     "a marker that slips by 15 mm": lambda t: moved(replace(t, standing=None), slipping(0.015)),
     "numbers that name no segment": labelled("M", "T", "marker_", "Point", "Th"),
+    "a marker 5 mm beside another": lambda t: moved(replace(t, standing=None), doubled(0.005)),
+    "0.2 s of a walk with the standing trial": lambda t: replace(t, markers=part(t.markers, 20), plates=()),
     "5 frames with the last place": lambda t: moved(replace(t, standing=None), held(5)),
     "110 kg with an upper arm of 0.3 m": carried(110.0),
     **modelled.NEARLY,

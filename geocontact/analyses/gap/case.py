@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.consent import foreign
@@ -116,6 +117,43 @@ def doubt_numbers(case: GapCase, file: Path) -> None:
 
 FEWEST = 10
 """Samples of a channel."""
+GAIN, WIDER, FEW = 0.15, 4.0, 3
+"""Logarithm of a gain that a trial has beside the others, times the spread of theirs, and how many others there are:
+donning, placement and what a model lacks move all gains of the practice cases by less."""
+BETTER = 0.5
+"""Share of a trial's error that stays with its own gain, from which on something else than a gain is wrong."""
+
+
+def odd_gains(
+    channel: str,
+    measured: Mapping[str, Float[np.ndarray, " _"]],
+    predicted: Mapping[str, Float[np.ndarray, " _"]],
+) -> list[str]:
+    """Trials of which a channel is a multiple of what a model predicts, as it is in no other trial, in words.
+
+    The gain of a trial minimises the squared distance of its samples from as many times the prediction. Both are by
+    the name of the trial, in the channel's unit, NaN where nothing was measured.
+    """
+    gains, known = {}, {}
+    for name, values in measured.items():
+        there = np.isfinite(values) & np.isfinite(predicted[name])
+        own, model = values[there], predicted[name][there]
+        if there.sum() > FEWEST and model.any() and (gain := float(own @ model / (model @ model))) > 0.0:
+            gains[name], known[name] = float(np.log(gain)), (own, model)
+    said = []
+    for name, gain in gains.items():
+        others = np.array([each for other, each in gains.items() if other != name])
+        if len(others) < FEW:
+            continue
+        usual, spread = float(np.median(others)), float(np.std(others, ddof=1))
+        own, model = known[name]
+        with_own, with_usual = (float(np.linalg.norm(own - np.exp(each) * model)) for each in (gain, usual))
+        if abs(gain - usual) > max(GAIN, WIDER * spread) and with_own < BETTER * with_usual:
+            low, high = np.exp([others.min() - usual, others.max() - usual])
+            times = f"{np.exp(gain - usual):.2f} times as large beside the model as in the others"
+            what = f"trial {name}: {channel} is {times} ({low:.2f} to {high:.2f})"
+            said.append(f"{what}; is its calibration, amplifier or unit another one?")
+    return said
 
 
 def require_shares(case: GapCase, file: Path) -> None:

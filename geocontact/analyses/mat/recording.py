@@ -23,6 +23,7 @@ from geocontact.geometry.register.landmarks import poses_at
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mats.catalogue import read_mat, read_shear_grid
 from geocontact.io.mats.layout import read_layout
+from geocontact.io.text.units import DIMENSIONS
 from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
 from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
 from geocontact.trial_checks.channel_checks import odd_rate
@@ -31,6 +32,7 @@ STOPS, STOPPED = 5, 3  # frames in which a cell reads the largest value of all, 
 PART = 0.05  # of the pressed samples that are below that value; one pressure everywhere is no range that ends
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6
+BEYOND = 1.1  # times the end of the cells' range that a cell reads; amplifiers and rounding add per cents
 
 Way = Literal["warn", "mask", "fill"]
 
@@ -300,8 +302,27 @@ def _reserve_one_top(seen: PreparedFrames) -> None:
         reserve(f"{what}: if that is where they clip, give it in the layout as saturation_kPa; forces are too low")
 
 
+def _reserve_beyond(read: PressureFrames) -> None:
+    """A warning for cells that read more than the stated end of their range: numbers are in another unit than stated.
+
+    A cell that clips reads that end. Units are named in which the largest would be within it.
+    """
+    top = float(np.nanmax(read.pressure, initial=0.0))
+    if not np.isfinite(read.saturation) or top <= BEYOND * read.saturation:
+        return
+    what = f"{read.name}: a cell reads {top * 1e-3:.4g} kPa, and cells end at {read.saturation * 1e-3:.4g} kPa"
+    within = [
+        f"{top * DIMENSIONS['Pa'][unit] * 1e-6:.4g} kPa if they are in {unit}"
+        for unit in ("mmHg", "Pa")
+        if top * DIMENSIONS["Pa"][unit] * 1e-3 <= read.saturation
+    ]
+    meant = f"are the pressures in the unit that is stated ({', '.join(within)})" if within else "is the unit right"
+    reserve(f"{what}: {meant}, or is saturation_kPa another one?")
+
+
 def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
+    _reserve_beyond(seen.read)
     judge(goodness_of_cells(frames, clipping), warned=True)
     if clipping.any():
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()

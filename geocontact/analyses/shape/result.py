@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -25,7 +25,7 @@ from geocontact.analyses.frame.collector import as_it_fits, if_it_fits, judge, l
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.shape.fitting import ShapeInputs, describe, fit_table, profile_table, read, sagittal_about
-from geocontact.analyses.shape.goodness import FEW, POOR, goodness_of_shape, unsaid
+from geocontact.analyses.shape.goodness import FEW, POOR, both_sides, goodness_of_shape, unsaid
 from geocontact.analyses.shape.options import ShapeOptions
 from geocontact.analyses.shape.show import fit_figure, fit_page, profile_curves
 from geocontact.data.errors import InputError
@@ -37,6 +37,7 @@ from geocontact.geometry.fit.patch import Fitting, Patch
 from geocontact.geometry.fit.profile import SagittalProfile, sagittal_profile
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.sweep import Axis
+from geocontact.identify.goodness_of_fit import GoodnessOfFit
 from geocontact.view.surfaces.points_vtp import write_fit_vtp
 
 if TYPE_CHECKING:
@@ -143,14 +144,17 @@ def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
     along = np.asarray(given.axis.direction, float) if given.axis is not None and o.hold_axis else None
     with listener().stages(patch.surface.name) as at:
         at(f"{o.shape} through {len(patch.points)} points")
-        whole = _fitted(patch.surface.name, patch.points, along, o)
+        whole, goodness = _fitted(patch.surface.name, patch.points, along, o)
+        shell = tuple(both_sides(patch.surface.name, whole, patch))
+        for doubt in shell:
+            reserve(doubt.what)
         sides = {}
         for name, (plane, side) in patch.sides.items():
             at(f"{o.shape} through the {name} points")
             own = patch.points[plane.height(patch.points) * side >= 0.0]
-            sides[name] = _fitted(name, own, whole.axis, o)
-            judge(goodness_of_shape(name, sides[name], own), warned=True)
-        judge(goodness_of_shape(patch.surface.name, whole, patch.points), warned=True)
+            sides[name], of_side = _fitted(name, own, whole.axis, o)
+            judge(of_side, warned=True)
+        judge(replace(goodness, doubts=(*goodness.doubts, *shell)), warned=True)
         for name, fit in {patch.surface.name: whole, **sides}.items():
             _report(name, fit)
         fitting = Fitting(patch, whole, sides, _profiles(patch, given.axis, whole, o, at))
@@ -160,8 +164,8 @@ def run(given: ShapeInputs, o: ShapeOptions) -> ShapeResult:
 
 def _fitted(
     name: str, points: Float[np.ndarray, "n 3"], along: Float[np.ndarray, " 3"] | None, o: ShapeOptions
-) -> ShapeFit:
-    """Shape through the points; a cylinder parallel to `along` where that is given."""
+) -> tuple[ShapeFit, GoodnessOfFit]:
+    """Shape through the points, a cylinder parallel to `along` where that is given; and its test of fit."""
     try:
         if o.shape == "cylinder" and along is not None:
             fit = fit_cylinder_along(points, along, o.robust)
@@ -170,9 +174,10 @@ def _fitted(
     except ValueError as error:
         raise InputError("", f"`shape` {o.shape}", f"{name}: {error}", "choose more faces with `region`") from error
     _warn_of_doubts(name, fit)
-    for doubt in unsaid(name, fit, points):
+    doubts = list(unsaid(name, fit, points))
+    for doubt in doubts:
         reserve(doubt.what)
-    return fit
+    return fit, goodness_of_shape(name, fit, points, doubts)
 
 
 def _report(name: str, fit: ShapeFit) -> None:

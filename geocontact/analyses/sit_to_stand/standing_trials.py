@@ -446,7 +446,7 @@ def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:
     own, rates = motion_of_file(file, chain, f"{name} rates")
     if own[0] > time[0] + 1e-9 or own[-1] < time[-1] - 1e-9:
         what = f"runs from {own[0]:g} to {own[-1]:g} s, the coordinates from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(file, "", what, "put both on one clock")
+        raise InputError(file, "", what, "is it of another trial? name its own file, or put both on one clock")
     return np.column_stack([np.interp(time, own, column) for column in rates.T])
 
 

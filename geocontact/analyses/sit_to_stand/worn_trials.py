@@ -132,5 +132,5 @@ def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Floa
     begin, end = table.time[[0, -1]]
     if begin > time[0] + 1e-6 or end < time[-1] - 1e-6:
         what = f"runs from {begin:g} to {end:g} s, the trial from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(file, "", what, "put both on one clock")
+        raise InputError(file, "", what, "is it of another trial? name its own file, or put both on one clock")
     return np.column_stack([np.interp(time, table.time, column) for column in values.T])

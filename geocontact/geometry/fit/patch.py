@@ -87,9 +87,15 @@ class Fitting:
         """Whether the faces look away from the centre of curvature, by area: convex or concave; None for a plane."""
         if self.whole.radius is None:
             return None
-        surface, faces = self.patch.surface, self.patch.faces
-        way = surface.vertices[surface.faces[faces]].mean(axis=1) - self.whole.point
-        if self.whole.axis is not None:
-            way = way - (way @ self.whole.axis)[:, None] * self.whole.axis
-        looks = np.einsum("ij,ij->i", way, surface.face_normal[faces])
-        return "convex" if float(np.sign(looks) @ surface.face_area[faces]) >= 0.0 else "concave"
+        area = self.patch.surface.face_area[self.patch.faces]
+        return "convex" if float(np.sign(looks(self.patch, self.whole)) @ area) >= 0.0 else "concave"
+
+
+def looks(patch: Patch, fit: ShapeFit) -> Float[np.ndarray, " k"]:
+    """Cosine between the normal of each face that counts and the way away from the centre, or from the axis."""
+    surface, faces = patch.surface, patch.faces
+    way = surface.vertices[surface.faces[faces]].mean(axis=1) - fit.point
+    if fit.axis is not None:
+        way = way - (way @ fit.axis)[:, None] * fit.axis
+    size = np.maximum(np.linalg.norm(way, axis=1), np.finfo(float).tiny)
+    return np.asarray(np.einsum("ij,ij->i", way, surface.face_normal[faces]) / size)

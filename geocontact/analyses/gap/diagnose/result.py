@@ -31,7 +31,7 @@ from geocontact.analyses.frame.collector import as_it_fits, contradicted, judge,
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import PARTS, REPORT, Part, Result
-from geocontact.analyses.gap.case import CaseWithModel
+from geocontact.analyses.gap.case import CaseWithModel, odd_gains
 from geocontact.analyses.gap.diagnose.answer import diagnosis_tables, untried_law, verdict_sentences
 from geocontact.analyses.gap.diagnose.curves import gap_figures, map_figure
 from geocontact.analyses.gap.diagnose.options import DiagnoseOptions
@@ -43,6 +43,7 @@ from geocontact.data.version import VERSION
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.diagnose import diagnose as findings_of
 from geocontact.gap.held_out_fit import goodness_of_diagnosis, without_claims
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.io.text.results import CASES
 
 if TYPE_CHECKING:
@@ -134,7 +135,12 @@ def read(o: DiagnoseOptions) -> CaseWithModel:
 def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     """Diagnosis, and what is found in words."""
     with listener().stages(o.case.resolve().name) as at:
-        findings = _held_to(findings_of(given.case, given.system, VERSION, at))
+        found = findings_of(given.case, given.system, VERSION, at)
+    gains = gain_doubts(found)
+    for line in gains:
+        reserve(line)
+    judge(GoodnessOfFit(tuple(Doubt(line, False) for line in gains), ("gains of the trials",)), warned=True)
+    findings = _held_to(found)
     note(
         "diagnosis",
         {
@@ -149,6 +155,19 @@ def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
     if untried is not None:
         reserve(untried)
     return DiagnoseResult(options=o, case=given.case, findings=findings)
+
+
+def gain_doubts(found: Findings) -> list[str]:
+    """Trials of which a channel has another gain than in the others, beside the answer's model, in words."""
+    problem, model = found.attribution.clean, found.attribution.answer.chosen.judged.model
+    trials = [*problem.calibration.trials, *problem.evaluation.trials]
+    outputs = [*problem.calibration.outputs, *problem.evaluation.outputs]
+    said = []
+    for c, channel in enumerate(problem.system.outputs):
+        measured = {trial.name: values[:, c] for trial, values in zip(trials, outputs, strict=True)}
+        off = {trial.name: values[:, c] for trial, values in zip(trials, model.residuals, strict=True)}
+        said += odd_gains(channel, measured, {name: values - off[name] for name, values in measured.items()})
+    return said
 
 
 def _held_to(findings: Findings) -> Findings:

@@ -201,7 +201,12 @@ def _widened(table: TrialTable, found: RecordedChannels) -> TrialTable:
     if inside.mean() < SHARED:
         what = f"runs from {signals.time[0]:g} to {signals.time[-1]:g} s, {found.what}"
         times = f"{found.time[0]:g} to {found.time[-1]:g} s"
-        raise InputError(table.file, "", f"{what} from {times}", "put both on one clock")
+        raise InputError(
+            table.file,
+            "",
+            f"{what} from {times}",
+            "is it of another trial? name its own file, or put both on one clock",
+        )
     units = tuple(unit for unit, _ in found.channels.values())
     widened = replace(
         signals,

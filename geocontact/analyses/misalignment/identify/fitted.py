@@ -35,6 +35,7 @@ from geocontact.axis_misalignment.prediction import (
     mirrored_r2,
     residuals_of,
     scale_line,
+    turned_words,
 )
 from geocontact.axis_misalignment.uncertainty import (
     Direction,
@@ -53,10 +54,11 @@ from geocontact.identify.intervals.profile_likelihood import Profile
 
 ROUNDING = 1e-9  # of the force's range; less is no noise
 LEAST_BINS = 8  # that a fit is made to
+APART, TOGETHER = 0.5, 0.9  # correlation of a trial with the others below which it is looked at; that of what mends it
 MIRRORED = -0.5  # correlation of a trial with the others from which on its sign is turned
 
 
-def require_bins(paths: Sequence[Path], data: Binned) -> None:
+def require_bins(paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned) -> None:
     """Refuse too few bins, name those that are missing inside the range reached, and a trial of the other sign."""
     bins = len(data.visits.edges) - 1
     reached = np.bincount(data.cells.place, minlength=bins) > 0
@@ -73,7 +75,7 @@ def require_bins(paths: Sequence[Path], data: Binned) -> None:
         edges = np.degrees(data.visits.edges)
         told = ", ".join(f"{edges[run[0]]:.0f}…{edges[run[-1] + 1]:.0f}°" for run in runs)
         reserve(f"no sample in {len(missing)} bins inside the range reached: {told}")
-    _refuse_mirrored(paths, data)
+    _refuse_mirrored(paths, recordings, data)
 
 
 def _require_noise(path: Path, data: Binned) -> None:
@@ -84,13 +86,20 @@ def _require_noise(path: Path, data: Binned) -> None:
         raise InputError(path, "", what, "give longer recordings or wider bins (`bin`): noise sets the intervals")
 
 
-def _refuse_mirrored(paths: Sequence[Path], data: Binned) -> None:
-    """A trial whose force mirrors that of the others."""
-    for path, correlation in zip(paths, correlations_with_others(data, LEAST_BINS), strict=True):
+def _refuse_mirrored(paths: Sequence[Path], recordings: Sequence[ElbowRecording], data: Binned) -> None:
+    """A trial whose force mirrors that of the others; a warning where it does not go with them and would, if turned."""
+    width = float(data.visits.edges[1] - data.visits.edges[0])
+    for k, (path, correlation) in enumerate(zip(paths, correlations_with_others(data, LEAST_BINS), strict=True)):
+        if not correlation < APART:
+            continue
+        most, likely = turned_words(recordings, k, width, LEAST_BINS)
+        others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
+        at = f"(correlation {correlation:.2f} over the bins)"
+        remedy = f"most likely {likely}: correct the file, or leave it out"
         if correlation < MIRRORED:
-            others_are = "the other trial, and nothing shows which is right" if len(paths) == 2 else "the other trials"
-            what = f"its force mirrors that of {others_are} (correlation {correlation:.2f} over the bins)"
-            raise InputError(path, "", what, "is its sign turned? correct the file, or leave it out")
+            raise InputError(path, "", f"its force mirrors that of {others_are} {at}", remedy)
+        if most > TOGETHER:
+            reserve(f"{path}: its force does not go with that of {others_are} {at}; {remedy}", cause=True)
 
 
 def predicted(
@@ -347,7 +356,7 @@ def free_joint(o: IdentifyOptions, recordings: Sequence[ElbowRecording], locked:
     if not recordings or o.unlocked is None:
         return None
     data = binned(recordings, o.bin)
-    require_bins(o.unlocked, data)
+    require_bins(o.unlocked, recordings, data)
     stroke = recorded_stroke(bin_means(data))
     if stroke is None:
         what = "the compensation joint slides over fewer than three bins"

@@ -303,7 +303,7 @@ class IdentifyResult(Result):
 def run(recorded: IdentifyInputs, o: IdentifyOptions) -> IdentifyResult:
     """The best numbers, their intervals, and what the recordings do not tell."""
     data = binned(recorded.locked, o.bin)
-    require_bins(o.recordings, data)
+    require_bins(o.recordings, recorded.locked, data)
     free = free_joint(o, recorded.unlocked, data)
     priors = {name: Prior(*pair) for name, pair in (o.prior or {}).items()}
     sensors = Sensors(o.turning, o.alpha_zeroed)

@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import note, say
+from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import write_json
 from geocontact.analyses.frame.result import REPORT, Result
@@ -123,6 +123,7 @@ class SimulateResult(Result):
 
 TRIALS, SEED = 6, 0
 GRID = 181  # angles at which a pole is looked for
+MOSTLY = 0.5  # share of the variance of a noise from which it is an offset rather than noise
 
 
 def run(recordings: Sequence[ElbowRecording], o: SimulateOptions) -> SimulateResult:
@@ -167,7 +168,7 @@ def _design(o: SimulateOptions) -> Design:
     if band[1] > 0.5 * rate:
         what = f"{band[1]:g} Hz reaches above half of {rate:g} Hz"
         raise InputError("", "`band`", what, "give a higher `rate`")
-    return Design(
+    design = Design(
         seconds=USUAL.seconds if o.seconds is None else o.seconds,
         rate=rate,
         band=band,
@@ -178,6 +179,24 @@ def _design(o: SimulateOptions) -> Design:
         bits=USUAL.bits if o.bits is None else o.bits,
         pressures=o.pressure,
     )
+    share = as_offset(design.memory, design.seconds)
+    if design.noise > 0.0 and share > MOSTLY:
+        what = (
+            f"`memory`: {design.memory:g} s beside trials of {design.seconds:g} s: {share:.0%} of the variance of what"
+        )
+        reserve(f"{what} the person adds is one offset of the force in each trial; is `memory` in s, `seconds` enough?")
+    return design
+
+
+def as_offset(memory: float, seconds: float) -> float:
+    """Share of the variance of an Ornstein-Uhlenbeck process that is in its mean over a trial, both in s.
+
+    The mean of exp(-|t - t'| / memory) over all pairs of times of the trial.
+    """
+    if memory <= 0.0:
+        return 0.0
+    times = seconds / memory
+    return float(2.0 * (times + np.expm1(-times)) / times**2)
 
 
 def _along(r: ElbowRecording, numbers: Mapping[str, float], o: SimulateOptions) -> LoadedTrial:

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.functional_joint.options import JointOptions
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
@@ -18,6 +18,8 @@ from geocontact.dynamics.functional_joint import FEWEST, seen_together, segment_
 from geocontact.io.text.tables import listed
 from geocontact.trial_checks.recorded import TrialInputs
 
+SHORTEST = 0.3
+"""s that a movement of a joint through its range lasts at least."""
 SIGHT = "name markers that one frame shows all of, or give `static`"
 
 
@@ -94,8 +96,16 @@ def read(o: JointOptions) -> MovedPair:
     one, other, together = seen_together(tracks[0][:2], tracks[1][:2])
     if not together.any():
         raise InputError(seen.source, "", "no frame shows both segments", "name markers that are visible together")
+    _doubt_span(seen.source, seen.time[together])
     off = tuple(float(np.sqrt(np.nanmean(track[2] ** 2))) for track in tracks)
     return MovedPair(still or seen, seen.time[together], *segments, one, other, (off[0], off[1]))
+
+
+def _doubt_span(source: str, time: Float[np.ndarray, " t"]) -> None:
+    span = float(time[-1] - time[0])
+    if span < SHORTEST:
+        what = f"{len(time)} frames over {span:.2g} s are no movement through a joint's range"
+        reserve(f"{source}: {what}: are `time` and the rate right?", cause=True)
 
 
 def marker_list(text: str) -> tuple[str, ...]:

@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -122,6 +123,8 @@ APART = 0.02
 """m; halves of a trial that give the joint farther apart do not tell it; the number is a convention of this command."""
 LOOSE = 0.5
 """Looseness of an axis from which on a point fits as well."""
+LAGS, CLEARER = 0.25, 0.5
+"""s of lag between two segments that are tried; share of the residual that stays without a lag which is one."""
 FRAME = "axes of the markers as written, while standing or in the first whole frame; origin: the mean of its markers"
 SEVERAL = {"axis": "axes", "centre": "centres"}
 MOVE = "move the joint through its range, a hip forward, sideways and round, with all markers in sight"
@@ -136,6 +139,7 @@ def run(pair: MovedPair, o: JointOptions) -> JointResult:
     except ValueError as error:
         raise InputError(o.trial, "", str(error), MOVE if o.axis else f"{MOVE}; for a hinge give `axis`") from error
     halves = apart_in_halves(*poses, near)
+    _warn_late(o, pair, points, near)
     judge(goodness_of_joint(points, _spread(pair), pair.off, halves), warned=True)
     if contradicted():  # without standard errors: they are those of a joint that is there
         points = replace(points, first_sd=None, second_sd=None)
@@ -192,6 +196,35 @@ def _summary(o: JointOptions, pair: MovedPair, points: JointPoints, halves: floa
 def _direction(places: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, " 3"]:
     along = places[1] - places[0]
     return np.asarray(along / np.linalg.norm(along))
+
+
+def _late(pair: MovedPair, points: JointPoints, near: Float[np.ndarray, " 3"] | None) -> tuple[float, float] | None:
+    """By how much the second segment is later than the first [s], and the residual without that [m].
+
+    None where no lag up to `LAGS` makes the residual that of a joint, or frames are not evenly spaced.
+    """
+    step = float(np.median(np.diff(pair.time)))
+    if points.rms <= APART or np.ptp(np.diff(pair.time)) > 0.5 * step:
+        return None
+    found, count = {}, len(pair.time)
+    for k in range(1, min(round(LAGS / step), count // 2) + 1):
+        for lag, first, second in ((k, slice(count - k), slice(k, None)), (-k, slice(k, None), slice(count - k))):
+            poses = pair.first_poses[first], pair.second_poses[second]
+            with suppress(ValueError):  # such a part does not determine the joint
+                found[lag] = (centre_points(*poses) if near is None else axis_points(*poses, near)).rms
+    if not found:
+        return None
+    best = min(found, key=found.__getitem__)
+    return (best * step, found[best]) if found[best] < min(APART, CLEARER * points.rms) else None
+
+
+def _warn_late(o: JointOptions, pair: MovedPair, points: JointPoints, near: Float[np.ndarray, " 3"] | None) -> None:
+    late = _late(pair, points, near)
+    if late is not None:
+        when = "later" if late[0] > 0.0 else "earlier"
+        what = f"markers of the second segment move {abs(late[0]):.2f} s {when} than those of the first"
+        rests = f"residual of the joint {1e3 * points.rms:.0f} mm, and {1e3 * late[1]:.0f} mm without that lag"
+        reserve(f"{o.trial}: {what} ({rests}): put both on one clock", cause=True)
 
 
 def _warn(o: JointOptions, pair: MovedPair, points: JointPoints) -> None:

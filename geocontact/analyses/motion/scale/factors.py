@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.motion.checked_trial import check_trial, standing_on
 from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
 from geocontact.analyses.motion.scale.options import ScaleOptions
@@ -43,7 +43,10 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    check_trial(TrialInputs(standing=whole, mass=o.mass, turn=turn_of(o.axes)))
+    on = standing_on(whole, o.static, turn_of(o.axes), o.c3d_unit)
+    check_trial(
+        TrialInputs(None, whole, on.plates, o.mass, stands_at=on.stands_at, surely=on.surely, turn=turn_of(o.axes))
+    )
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     factors = factors_told(model, _measured(o, model, whole), o.scale)

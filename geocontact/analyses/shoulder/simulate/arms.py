@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +11,7 @@ import pandas as pd
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input, note, reserve, say
-from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.motion.checked_trial import StandsOn, check_trial, standing_on
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
 from geocontact.analyses.shoulder.recordings import current_at, tool_runs
@@ -77,12 +77,17 @@ def read(o: ShoulderSimulateOptions) -> Worn:
     return worn_along(o, wearer_named(o.person, back=o.mass is not None))
 
 
-def worn_along(o: ShoulderSimulateOptions, wearer: Wearer) -> Worn:
-    """The same on a wearer who is known."""
+def worn_along(
+    o: ShoulderSimulateOptions, wearer: Wearer, mass: float | None = None, mass_option: str = "`mass`"
+) -> Worn:
+    """The same on a wearer who is known; `mass` [kg] where it is no option but stands elsewhere, at `mass_option`."""
     device = device_named(o.device)
     seen = renamed_as_told(markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
-    check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes)))
+    mass = o.mass if mass is None else mass
+    on = StandsOn() if mass is None else standing_on(seen, o.markers, turn_of(o.axes), o.c3d_unit)
+    trial = TrialInputs(seen, None, on.plates, mass, mass_option=mass_option, turn=turn_of(o.axes))
+    check_trial(replace(trial, stands_at=on.stands_at, surely=on.surely))
     settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)
     found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)
     for line in found.notes:

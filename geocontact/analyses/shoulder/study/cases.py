@@ -110,7 +110,8 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
         c3d_unit=unit_of_c3d(o.c3d_unit, trial.markers),
     )
     with collecting(Record("shoulder simulate", {})) as own:
-        found = worn_along(asked, wearer_of_lengths(o.study, person.lengths))
+        named = f"mass of [persons.{trial.person}] in {o.study}"
+        found = worn_along(asked, wearer_of_lengths(o.study, person.lengths), person.mass, named)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:

@@ -136,7 +136,7 @@ def _columns(given: tuple[Path, str], names: list[str], time: Float[np.ndarray, 
     step = float(np.ptp(time)) / (len(time) - 1)
     if begin > time[0] + step or end < time[-1] - step:
         what = f"runs from {begin:g} to {end:g} s, the angles from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(file, "", what, "put both on one clock")
+        raise InputError(file, "", what, "is it of another trial? name its own file, or put both on one clock")
     return np.column_stack([np.interp(time, table.time, column) for column in values])
 
 
