@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
-from geocontact.data.plausible import ADHESION, CONTACT
+from geocontact.data.plausible import ADHESION, BEARING, CONTACT
 from geocontact.elastic_modulus.area_force import MODULUS, WORK
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
+from geocontact.identify.signals.agreement import likely_cause
 
 OFFSET, TAKEN = 0.1, 0.1
 """Parts of the largest force, and of the squared residual that may stay with a constant beside the law."""
@@ -25,6 +27,7 @@ def goodness_of(found: Identified) -> GoodnessOfFit:
     for told in found.predictions:
         if told.measured is not None and told.r2 < 0.0:
             what = f"{told.side}, trial not used: R² is {told.r2:.2f}, a constant force would do better than the law"
+            what += likely_cause(told.predicted, told.measured)
             doubts.append(Doubt(what, False))
     if words := agree_by_width(found):
         doubts.append(Doubt(words, False))
@@ -58,6 +61,9 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield Doubt(f"{side}: the data do not limit {name} within its bounds, on one side or both", False)
     profile = each.profiles[MODULUS]
     yield from of_size(f"{side}: E*", (profile.lower, profile.upper), CONTACT)
+    pressure = float(np.nanmax(each.measured) / each.model.evolution.area.max())
+    for doubt in of_size(f"{side}: largest force over largest area", (pressure, pressure), BEARING):
+        yield replace(doubt, what=f"{doubt.what}: is the force in N, and are the areas in mm²?", contradicts=False)
     if (work := each.profiles.get(WORK)) and not work.upper_open:
         yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)
     width, radius = float(np.sqrt(each.model.evolution.area.max() / np.pi)), float(np.max(each.model.evolution.radius))

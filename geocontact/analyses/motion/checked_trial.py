@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,20 +14,22 @@ from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME
-from geocontact.trial_checks.recorded import UP, TrialInputs
-from geocontact.trial_checks.table import contradictions
+from geocontact.trial_checks.recorded import UP, Check, TrialInputs
+from geocontact.trial_checks.table import CHECKS, contradictions
 from geocontact.trial_checks.twice import same_recordings
 
 
-def check_trial(trial: TrialInputs) -> frozenset[str]:
+def check_trial(trial: TrialInputs, only: Sequence[Check] = CHECKS) -> frozenset[str]:
     """Every check of `trial_checks.table`: a warning for each contradiction; InputError for one that leaves no result.
+
+    `only` are the checks of a second recording beside a standing trial that was checked already.
 
     Returns
     -------
     frozenset of str
         Names of the checks that found something.
     """
-    found = contradictions(trial)
+    found = contradictions(trial, only)
     for check, one in found:
         if one.refuse:
             raise InputError(one.source, one.place, one.what, one.remedy)
