@@ -168,6 +168,8 @@ def doubt_tool(file: Path, tool: Bool[np.ndarray, " t"], arms: Sequence[ArmMotio
         reserve(f"{file} `tool`: {what}; is its clock that of the markers, and 1 what runs?")
 
 
+TURNED = 0.3
+"""Part of the largest current below 0 that the largest above it is less than, where the sign is turned."""
 COVERED = 0.5
 """Share of the markers' time that the tool's recording has to cover."""
 
@@ -185,8 +187,8 @@ def tool_current(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray,
     """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
     table, current, _ = _current(file)
     _doubt_clock(file, table.time, time)
-    if np.nanmax(current, initial=-np.inf) <= 0.0:
-        reserve(f"{file} `tool`: its current is never above 0, so that it never runs: is its sign turned?")
+    if np.nanmax(current, initial=0.0) < TURNED * -np.nanmin(current, initial=0.0):
+        reserve(f"{file} `tool`: its current is down to {np.nanmin(current):.3g} A: is its sign turned?")
     add_input("`tool`", file, samples=len(table.time))
     return np.asarray(np.interp(time, table.time, current))
 
