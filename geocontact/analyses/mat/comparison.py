@@ -12,6 +12,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.mat.recording import SLOWEST
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
@@ -31,6 +32,7 @@ from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit
 from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
 from geocontact.loads.mat_load import MatLoad
+from geocontact.trial_checks.channel_checks import odd_rate
 
 MM, MM2 = 1e3, 1e6
 AXES = "xyz"
@@ -128,6 +130,8 @@ def read_model(o: MatOptions) -> ModelForces | None:
         return None
     model = ModelForces(o.compare, read_table(o.compare), read_wrench_head(o.compare))
     add_input("`compare`", o.compare, rows=len(model.table.time))
+    for odd in odd_rate(str(o.compare), "", model.table.time, SLOWEST):
+        reserve(str(odd))
     return model
 
 
@@ -189,8 +193,8 @@ def _moved(curves: Curves, model: ModelForces, ours: Wrench) -> Curves:
 
 
 PARTS = 10
-HARDLY = 5.0
-"""N, by which a force changes that is not compared: noise of the cells."""
+HARDLY = dict.fromkeys(FORCE, 5.0) | dict.fromkeys(MOMENT, 0.5)
+"""N and N m, by which a force or a moment changes that is not compared: noise of the cells."""
 
 Curve = Float[np.ndarray, " t"]
 
@@ -232,7 +236,7 @@ def _of_model(file: Path, curves: Mapping[str, tuple[Curve, Curve]], step: float
     """Doubts for forces of a model that a constant would do better than, and for a clock that is off."""
     for name, (theirs, ours) in curves.items():
         both = np.isfinite(theirs) & np.isfinite(ours)
-        if name not in FORCE or both.sum() < FEWEST or np.ptp(ours[both]) < HARDLY:
+        if name not in HARDLY or both.sum() < FEWEST or np.ptp(ours[both]) < HARDLY[name]:
             continue
         r2 = 1.0 - np.sum((theirs - ours)[both] ** 2) / np.sum((ours[both] - ours[both].mean()) ** 2)
         if r2 < 0.0:

@@ -185,8 +185,10 @@ def _doubt_clock(file: Path, own: Float[np.ndarray, " s"], time: Float[np.ndarra
 
 def tool_current(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
-    table, current, _ = _current(file)
+    table, current, binary = _current(file)
     _doubt_clock(file, table.time, time)
+    if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
+        reserve(f"{file} `tool`: {doubt}")
     if np.nanmax(current, initial=0.0) < TURNED * -np.nanmin(current, initial=0.0):
         reserve(f"{file} `tool`: its current is down to {np.nanmin(current):.3g} A: is its sign turned?")
     add_input("`tool`", file, samples=len(table.time))

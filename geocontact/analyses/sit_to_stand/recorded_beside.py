@@ -25,9 +25,11 @@ ten synthetic trials they are 3 to 6 % apart."""
 ONE_LEG = (0.4, 0.6)
 """Of that torque, which one of two legs makes."""
 STRAPPED, SMALLER, LARGER = 5.0, 0.15, 6.0
-"""N, by which a strap's force varies by the coordinates, from which on the recorded one is compared with it, and the
-parts of it that are another unit; errors of angles make it 1.4 times too large."""
-CUTOFF, FARTHEST, LATE, CLEARER = 6.0, 1.0, 0.1, 0.2
+"""N, by which a strap's force varies, recorded or by coordinates, from which on both are compared, and parts of the one
+that are another unit; errors of angles make it 1.4 times too large by coordinates."""
+TURNED, ALIKE = -0.4, 0.5
+"""Correlations of both, below which a sign is turned, and above which a lag is looked at."""
+CUTOFF, FARTHEST, LATE, CLEARER = 6.0, 0.45, 0.1, 0.2
 """Hz, of both; s, of the lags that are looked at, and s and correlation from which a clock is doubted."""
 
 
@@ -72,15 +74,15 @@ def doubt_straps(file: Path, trials: StandingUpTrials, values: Mapping[str, floa
 def _another(asked: Float[np.ndarray, " t"], recorded: Float[np.ndarray, " t"], step: float) -> str:
     """Why a strap's recorded force is not that of its spring; empty where it may be."""
     expected, varies = float(np.std(asked)), float(np.std(recorded))
-    if expected < STRAPPED:
+    if max(expected, varies) < STRAPPED:
         return ""
-    if not SMALLER < varies / expected < LARGER:
+    if not SMALLER * expected < varies < LARGER * expected:
         what = f"varies by {varies:.2g} N, by coordinates and stiffness by {expected:.2g} N"
-        return f"{what}: is it in N, and does its cell work?"
-    lag, there = lag_of(asked, recorded, step, FARTHEST)
+        return f"{what}: is it in N, does its cell work, and are the parameters those of this strap?"
     _, now = lag_of(asked, recorded, step, 0.0)
-    if abs(lag) >= LATE and there - now >= CLEARER and there > 0.5:
+    if now < TURNED:
+        return "falls where its spring is pressed more: is its sign turned, or are the device's angles others?"
+    lag, there = lag_of(asked, recorded, step, FARTHEST)
+    if LATE <= abs(lag) < FARTHEST - step and there - now >= CLEARER and there > ALIKE:
         return f"is not in time with the coordinates: {clock_words(lag)}"
-    if now < 0.0:
-        return "falls where its spring is pressed more: is its sign turned, or is it of another trial?"
     return ""

@@ -102,7 +102,7 @@ def risen(change: damage.Damage, design: bool = False) -> Attempt:
 
     def attempt(folder: Path) -> Lines:
         there = trials.files_of(MESHES / "standing_up_held_out", folder)
-        worn = MESHES / "standing_up_exoskeleton"
+        worn = trials.files_of(MESHES / "standing_up_exoskeleton", folder)
         change(there)
         given: dict[str, Any] = {"parameters": worn / "truth.csv"}
         if design:
@@ -141,6 +141,12 @@ def strapped(factor: float = 1.0, late: float = 0.0) -> damage.Damage:
         return {}
 
     return change
+
+
+def softer_strap(folder: Path) -> dict[str, Any]:
+    file = folder.parent / "standing_up_exoskeleton" / "truth.csv"
+    file.write_text(file.read_text().replace("strap normal,N/m,4500", "strap normal,N/m,450"))
+    return {}
 
 
 def overhead(change: Change) -> Attempt:
@@ -198,14 +204,16 @@ def of_row(row: int, value: Callable[[pd.DataFrame, int], Any]) -> Change:
     return change
 
 
-def beside_model(factor: float = 1.0, late: float = 0.0) -> Attempt:
+def beside_model(
+    factor: float = 1.0, late: float = 0.0, channels: tuple[str, ...] = ("fx", "fy", "fz"), clock: float = 1.0
+) -> Attempt:
     """Mat beside its true forces, of which something is wrong."""
 
     def attempt(folder: Path) -> Lines:
         found = pd.read_csv(THIGH / "truth.csv", comment="#", skipinitialspace=True)
-        for name in [each for each in found.columns if each.startswith(("fx", "fy", "fz"))]:
+        for name in [each for each in found.columns if each.startswith(channels)]:
             found[name] = factor * found[name]
-        found["time [s]"] = found["time [s]"] + late
+        found["time [s]"] = clock * found["time [s]"] + late
         found.to_csv(folder / "model.csv", index=False)
         return on_thigh(lambda _: None, compare=folder / "model.csv")(folder)
 
@@ -252,6 +260,7 @@ FINDINGS: dict[str, Finding] = {
     "scale: residual limb on the sound side": Finding(limb("LKNE,LSH1"), "refused: .*`residual_markers`: LKNE lies"),
     "scale: residual limb to the ankle": Finding(limb("RKNE,RANK"), "refused: .*`residual_markers`: .*not shorter"),
     "keel: forces in kgf": Finding(keel("force [N]", 1 / 9.81), "warned: .*GPa is unusual for .*laminate.*in N"),
+    "keel: forces ten times": Finding(keel("force [N]", 10.0), "warned: .*GPa is unusual for .*laminate.*in N"),
     "keel: deflections in inches": Finding(keel("deflection [mm]", 1 / 25.4), "warned: .*and the data in theirs"),
     "calibrate: friction exchanged": Finding(law_of_friction(0.5, 0.8), "warned: .*kinetic friction mu_k # is larger"),
     "calibrate: a copied column": Finding(copied_centre(0.0), "warned: .*x and z of its centre of pressure are equal"),
@@ -270,6 +279,8 @@ FINDINGS: dict[str, Finding] = {
     "compare: a strap in kgf": Finding(risen(strapped(1 / 9.81)), "warned: .*by coordinates and stiffness by .*in N"),
     "compare: a strap without force": Finding(risen(strapped(0.0)), "warned: .*does its cell work"),
     "compare: a strap 0.3 s late": Finding(risen(strapped(late=0.3)), "warned: .*0.30 s late: is its clock right"),
+    "compare: a strap turned": Finding(risen(strapped(-1.0)), "warned: .*falls where its spring .*is its sign turned"),
+    "compare: stiffness of another strap": Finding(risen(softer_strap), "warned: .*are the parameters those"),
     "design: torques of the person turned": Finding(risen(torques(-1.0), True), "warned: .*is their sign turned"),
     "design: a strap in kgf": Finding(risen(strapped(1 / 9.81), True), "warned: .*is it in N, and does its cell"),
     "optimise: the tool 20 s later": Finding(
@@ -279,6 +290,7 @@ FINDINGS: dict[str, Finding] = {
     "optimise: the tool's current turned": Finding(
         overhead(times_column("current [A]", -1.0)), "warned: .*current is down to -4.82 A: is its sign turned"
     ),
+    "optimise: the tool's current in mA": Finding(overhead(times_column("current [A]", 1e3)), "warned: .*4820 mA meant"),
     "elbow: forces in kgf": Finding(
         elbow(times_column("force [N]", 1 / 9.81)), "contradicts: .*0.1 times the simulated ones: is the unit right"
     ),
@@ -293,6 +305,10 @@ FINDINGS: dict[str, Finding] = {
     "mat: a model in kN": Finding(beside_model(1e-3), "warned: .*1e.03 times the simulated ones: is the unit right"),
     "mat: a model turned": Finding(beside_model(-1.0), "warned: .*describe the mat's force better: is a sign turned"),
     "mat: a model 0.3 s late": Finding(beside_model(late=0.3), "warned: .*0.30 s late: is its clock right"),
+    "mat: moments of a model in N mm": Finding(
+        beside_model(1e3, channels=("mx", "my", "mz")), "warned: .*m[xz]: R² is .*0.001 times the simulated ones"
+    ),
+    "mat: a model's time in ms": Finding(beside_model(clock=1e3), "warned: .*is its time in s, not in ms"),
     "mat: the pressure as shear": Finding(sheared_by_pressure, "refused: .*values are those of the pressure"),
     "mat: a row copied": Finding(
         on_thigh(of_row(9, lambda found, c: found[f"r8c{c} [kPa]"])), "warned: .*row 9 reads what row 8 reads"

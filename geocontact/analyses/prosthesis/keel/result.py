@@ -54,7 +54,7 @@ MISSED = 0.05
 """Share of a stiffness by which the sole may miss it."""
 MODULI = (
     (1450.0, Plausible("Young's modulus of a polymer", GPa, (0.01, 100.0), (0.5, 12.0))),
-    (2200.0, Plausible("Young's modulus of a laminate of glass or carbon fibre", GPa, (0.1, 600.0), (7.0, 200.0))),
+    (2200.0, Plausible("Young's modulus of a laminate of glass or carbon fibre", GPa, (0.1, 600.0), (7.0, 160.0))),
     (np.inf, Plausible("Young's modulus of a metal", GPa, (1.0, 600.0), (40.0, 230.0))),
 )
 """By densities below [kg/m³]: acetal and nylon have 1 to 4 GPa, with short fibres up to 12; laminates 8 to 150; light
