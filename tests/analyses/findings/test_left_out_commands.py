@@ -282,7 +282,7 @@ FINDINGS: dict[str, Finding] = {
     "compare: a strap turned": Finding(risen(strapped(-1.0)), "warned: .*falls where its spring .*is its sign turned"),
     "compare: stiffness of another strap": Finding(risen(softer_strap), "warned: .*are the parameters those"),
     "design: torques of the person turned": Finding(risen(torques(-1.0), True), "warned: .*is their sign turned"),
-    "design: a strap in kgf": Finding(risen(strapped(1 / 9.81), True), "warned: .*is it in N, and does its cell"),
+    "design: a strap in kgf": Finding(risen(strapped(1 / 9.81), True), "warned: .*is it in N, does its cell"),
     "optimise: the tool 20 s later": Finding(
         overhead(lambda found: found.__setitem__("time [s]", found["time [s]"] + 20.0)), "warned: .*is it of this trial"
     ),
@@ -290,7 +290,7 @@ FINDINGS: dict[str, Finding] = {
     "optimise: the tool's current turned": Finding(
         overhead(times_column("current [A]", -1.0)), "warned: .*current is down to -4.82 A: is its sign turned"
     ),
-    "optimise: the tool's current in mA": Finding(overhead(times_column("current [A]", 1e3)), "warned: .*4820 mA meant"),
+    "optimise: the tool's current in mA": Finding(overhead(times_column("current [A]", 1e3)), "warned: .*4820 mA mea"),
     "elbow: forces in kgf": Finding(
         elbow(times_column("force [N]", 1 / 9.81)), "contradicts: .*0.1 times the simulated ones: is the unit right"
     ),
