@@ -177,12 +177,15 @@ def fitted_walk(
     return Walk(leg, fit, ground, foot, fulcrum, push, plate, cluster, seen, hip, cutoff, gap_limit, around)
 
 
+RESIDUAL = "`residual_length` or `residual_markers`"
+
+
 def with_residual(leg: Leg, length: float) -> Leg:
     """With a residual limb of a length [m]; InputError where the shank is not longer."""
     try:
         return leg.with_residual(length)
     except ValueError as error:
-        raise InputError("", "`residual_length`", str(error), "measure from the knee to the end of the limb") from error
+        raise InputError("", RESIDUAL, str(error), "measure from the knee to the end of the limb") from error
 
 
 def _require_fit(seen: MarkerTrajectories, fit: Walked) -> None:

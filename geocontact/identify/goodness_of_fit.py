@@ -154,7 +154,11 @@ def of_residual(name: str, unit: str, residual: Float[np.ndarray, " n"], noise: 
         yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}", test.ratio > FAR, test.ratio)
     elif test.ratio < TOO_SMALL:
         times = f"{test.ratio:.2g} times the stated noise of {noise:.3g} {unit}, and intervals are too wide by as much"
-        yield Doubt(f"{name}: residual {test.rms:.3g} {unit} is {times}: is that noise in its unit?", False, LARGER)
+        yield Doubt(
+            f"{name}: residual {test.rms:.3g} {unit} is {times}: is that noise in its unit, and the data in theirs?",
+            False,
+            LARGER,
+        )
 
 
 def of_r2(name: str, r2: float) -> Iterable[Doubt]:

@@ -10,6 +10,8 @@ from jaxtyping import Float
 
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
+MISSING = 4.5
+"""Steps of time that one step may last; loggers that skip samples skip one or two."""
 SLOWEST, FASTEST, ENOUGH = 8.0, 50_000.0, 10
 """Hz, and samples from which a rate is looked at. Cameras take 25 to 500, plates 100 to 5000, electromyographs up to
 4000 (Winter, Biomechanics and Motor Control of Human Movement, 2009, section 3.4)."""
@@ -67,11 +69,18 @@ def rates(trial: TrialInputs) -> Iterator[Contradiction]:
 def odd_rate(
     source: str, place: str, time: Float[np.ndarray, " t"], slowest: float = SLOWEST
 ) -> Iterator[Contradiction]:
-    """Samples in a second of one recording, at least `slowest` [Hz]."""
+    """Samples in a second of one recording, at least `slowest` [Hz], and the longest time without one."""
     rate = _rate(time)
     if np.isfinite(rate) and not slowest <= rate <= FASTEST:
         what = f"has {rate:.3g} samples in a second, over {time[-1] - time[0]:.4g} s"
         yield Contradiction(source, place, what, "is its time in s, not in ms, frames or minutes?")
+    if len(time) < ENOUGH:
+        return
+    steps = np.diff(time)
+    k, usual = int(np.argmax(steps)), float(np.median(steps))
+    if steps[k] > MISSING * usual:
+        what = f"has nothing from {time[k]:.4g} to {time[k + 1]:.4g} s, and otherwise a sample every {usual:.3g} s"
+        yield Contradiction(source, place, what, "are rows missing? gaps are bridged, as if they had been measured")
 
 
 def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -91,8 +100,10 @@ def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:
 CHANNEL_CHECKS = (
     Check(
         "sampling",
-        "samples in a second of markers, plates, coordinates and channels with those of measuring devices",
-        f"{SLOWEST:g} to {FASTEST:g} Hz; cameras take 25 to 500, plates 100 to 5000 (Winter, Biomechanics, 2009)",
+        "samples in a second of markers, plates, coordinates and channels with those of measuring devices, and the "
+        "longest step of time with the usual one",
+        f"{SLOWEST:g} to {FASTEST:g} Hz; cameras take 25 to 500, plates 100 to 5000 (Winter, Biomechanics, 2009); "
+        f"{MISSING:g} steps",
         rates,
     ),
     Check(

@@ -12,6 +12,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.tilt import axes_upright
 from geocontact.trial_checks.landmarks import FOOT, landmark, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+from geocontact.trial_checks.twice import held_steps
 
 STEP, ACCELERATION = 0.04, 200.0
 """m, and m/s^2 over one sample: a marker of a person does not leave its course by more from one frame to the next.
@@ -40,9 +41,9 @@ the limit `MOVED`; frames that a pair has to be seen in. Nine recordings of seve
 old one whose pelvis has markers on wands 61 and 7 mm."""
 ANYWHERE = frozenset({"marker", "mark", "mkr", "mk", "point", "pt", "unlabeled", "unlabelled", "th"})
 """Words before a number that name no segment: of any marker, and of the thoracic vertebrae."""
-STILL_FOR, OTHERS_MOVE, SAME, MOSTLY = 10, 0.03, 1e-6, 0.9
-"""Frames for which a marker stays at one place, m that the median of the others moves meanwhile, m that are the same
-place, no digit of a file changing, and share of the trial beyond which it is a place that a model holds."""
+STILL_FOR, OTHERS_MOVE, MOSTLY = 10, 0.03, 0.9
+"""Frames for which a marker stays at one place, m that the median of the others moves meanwhile, and share of the trial
+beyond which it is a place that a model holds."""
 
 
 def _predicted(seen: MarkerTrajectories) -> tuple[Float[np.ndarray, "n m 3"], float]:
@@ -264,20 +265,18 @@ def standing_still(trial: TrialInputs) -> Iterator[Contradiction]:
     if seen is None or len(seen.names) < FEWEST + 1 or len(seen) <= STILL_FOR:
         return
     places = seen.positions
-    same = np.abs(np.diff(places, axis=0)).max(axis=2) < SAME
-    for k, name in enumerate(seen.names):
-        if landmark(name)[0] in FOOT or same[:, k].mean() > MOSTLY:  # what a model holds where it is
+    for k, same in held_steps(places, STILL_FOR).items():
+        if landmark(seen.names[k])[0] in FOOT or same.mean() > MOSTLY:  # what a model holds where it is
             continue
-        edges = np.flatnonzero(np.diff(np.r_[False, same[:, k], False].astype(int)))
-        for start, stop in zip(edges[::2], edges[1::2], strict=True):
-            if stop - start < STILL_FOR:
-                continue
-            moved = np.linalg.norm(np.delete(places[stop] - places[start], k, axis=0), axis=1)
-            if np.isfinite(moved).any() and float(np.nanmedian(moved)) > OTHERS_MOVE:
-                what = f"{name} stays at one place from {seen.time[start]:.2f} to {seen.time[stop]:.2f} s"
-                what += f", while others move by {1e3 * float(np.nanmedian(moved)):.0f} mm"
-                yield Contradiction(seen.source, "", what, "is a gap filled with its last place? leave gaps empty")
-                break
+        edges = np.flatnonzero(np.diff(np.r_[False, same, False].astype(int))).reshape(-1, 2)
+        start, stop = edges[edges[:, 1] - edges[:, 0] >= STILL_FOR].T
+        moved = np.linalg.norm(np.delete(places[stop] - places[start], k, axis=1), axis=2)
+        moved = np.nan_to_num(np.nanmedian(moved, axis=1))
+        if (moved > OTHERS_MOVE).any():
+            at = int(np.argmax(moved > OTHERS_MOVE))
+            what = f"{seen.names[k]} stays at one place from {seen.time[start[at]]:.2f} to {seen.time[stop[at]]:.2f} s"
+            what += f", while others move by {1e3 * moved[at]:.0f} mm"
+            yield Contradiction(seen.source, "", what, "is a gap filled with its last place? leave gaps empty")
 
 
 def flat_foot(trial: TrialInputs) -> Iterator[Contradiction]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -187,6 +188,24 @@ def reaction(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(on.source, on.plate.name, what, remedy, refuse=True)
 
 
+COPIED = 10
+"""Samples under load in which two components change and are equal: noise alone keeps them apart."""
+
+
+def copied_components(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Components of the force, and of the centre of pressure, of one plate with each other."""
+    for on in trial.plates:
+        loaded = on.normal >= LOADED
+        force, centre = on.plate.wrench.force[loaded], on.plate.centre_of_pressure()[loaded]
+        for what, columns in (("force", force), ("centre of pressure", centre)):
+            for one, other in combinations(range(3), 2):
+                pair = columns[:, [one, other]]
+                pair = pair[np.isfinite(pair).all(axis=1)]
+                if len(np.unique(pair[:, 0])) >= COPIED and np.allclose(pair[:, 0], pair[:, 1], rtol=1e-9, atol=1e-9):
+                    line = f"{'xyz'[one]} and {'xyz'[other]} of its {what} are equal in every sample under load"
+                    yield Contradiction(on.source, on.plate.name, line, "is a column copied, or named twice?")
+
+
 def on_its_surface(trial: TrialInputs) -> Iterator[Contradiction]:
     """The centre of pressure against the plate's corners."""
     for on in trial.plates:
@@ -290,6 +309,12 @@ PLATE_CHECKS = (
         f"{WEIGHT:.0%} of the weight, mean of {STANDING:g} s; rising at 1 m/s² is as much; refused from "
         f"{OTHER_WEIGHT:.0%} on",
         standing_weight,
+    ),
+    Check(
+        "copied component",
+        "components of the force, and of the centre of pressure, of one plate with each other",
+        f"equal in every sample under load, {COPIED} different values at least",
+        copied_components,
     ),
     Check(
         "force on the foot",

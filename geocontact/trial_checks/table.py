@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 
 from geocontact.trial_checks.body_checks import BODY_CHECKS
 from geocontact.trial_checks.channel_checks import CHANNEL_CHECKS
@@ -21,11 +22,13 @@ CHECKS: tuple[Check, ...] = (
     *CHANNEL_CHECKS,
 )
 """Every check of a recorded trial."""
+MOVED_CHECKS = tuple(check for check in CHECKS if check.name in ("jump", "standing trial", "right and left"))
+"""Those of a further recording of the person, beside the standing trial."""
 
 
-def contradictions(trial: TrialInputs) -> list[tuple[Check, Contradiction]]:
+def contradictions(trial: TrialInputs, checks: Sequence[Check] = CHECKS) -> list[tuple[Check, Contradiction]]:
     """Whatever any check finds, those that refuse a trial first."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # medians of frames in which nothing was seen
-        found = [(check, one) for check in CHECKS for one in check.find(trial)]
+        found = [(check, one) for check in checks for one in check.find(trial)]
     return sorted(found, key=lambda pair: not pair[1].refuse)

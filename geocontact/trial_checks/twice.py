@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
@@ -19,6 +19,8 @@ FEWEST = 5
 """Samples from which two recordings that are alike are no chance."""
 STILL_FOR, SAME = 10, 1e-6
 """Frames in which two markers are at one place, and m that are the same place, no digit of a file changing."""
+LOOKED_AT = 256
+"""Frames, evenly spread, in which markers are compared before any two are compared all along."""
 MOVES = (1e-2, 1e-3)
 """rad and m by which a coordinate changes that is looked at: a model holds others at one value."""
 
@@ -34,6 +36,61 @@ def same_recordings(recordings: Mapping[str, Float[np.ndarray, "*shape"]]) -> li
     ]
 
 
+def markers_at_one_place(places: Float[np.ndarray, "n m 3"], fewest: int) -> list[tuple[int, int]]:
+    """Two markers that are at one place in each frame in which both are seen, `fewest` frames at least.
+
+    In some frames all markers are sorted along x, and neighbours compared. Only two that are always together there,
+    or that no such frame shows both of, are compared all along: the work grows as markers times their logarithm.
+    """
+    some = places[:: max(1, len(places) // LOOKED_AT)]
+    shown = np.isfinite(some).all(axis=2).astype(np.float32)
+    common = np.rint(shown.T @ shown).astype(int)
+    together = np.zeros_like(common)
+    order = np.argsort(np.where(shown > 0, some[:, :, 0], np.inf), axis=1)
+    ordered = np.take_along_axis(some, order[:, :, None], axis=1)
+    for by in range(1, places.shape[1]):
+        row, at = np.nonzero(np.abs(ordered[:, by:, 0] - ordered[:, :-by, 0]) < SAME)
+        if not len(row):
+            break
+        near = (np.abs(ordered[row, at + by] - ordered[row, at]) < SAME).all(axis=1)
+        ends = np.sort([order[row, at][near], order[row, at + by][near]], axis=0)
+        np.add.at(together, tuple(ends), 1)
+    one, other = np.nonzero(np.triu(together == common, 1))
+    unseen = common[one, other] == 0
+    if unseen.any():
+        of = np.unique([one[unseen], other[unseen]])
+        whole = np.isfinite(places[:, of]).all(axis=2).astype(np.float32)
+        enough = np.rint(whole.T @ whole) >= fewest
+        keep = ~unseen
+        keep[unseen] = enough[np.searchsorted(of, one[unseen]), np.searchsorted(of, other[unseen])]
+        one, other = one[keep], other[keep]
+    return [(int(i), int(j)) for i, j in zip(one, other, strict=True) if _together(places[:, i], places[:, j], fewest)]
+
+
+def _together(one: Float[np.ndarray, "n 3"], other: Float[np.ndarray, "n 3"], fewest: int) -> bool:
+    apart = np.abs(one - other).max(axis=1)
+    apart = apart[np.isfinite(apart)]
+    return len(apart) >= fewest and bool((apart < SAME).all())
+
+
+def held_steps(places: Float[np.ndarray, "n m 3"], fewest: int) -> dict[int, Bool[np.ndarray, " n-1"]]:
+    """For each marker that stays at one place for `fewest` steps or more: the steps from frame to frame without motion.
+
+    Every `fewest`-th step is looked at first, which is one of every run that is so long.
+    """
+    at = np.arange(0, len(places) - 1, fewest)
+    held = np.abs(places[at + 1, :, 0] - places[at, :, 0]) < SAME
+    row, marker = np.nonzero(held)
+    still = (np.abs(places[at[row] + 1, marker] - places[at[row], marker]) < SAME).all(axis=1)
+    found = {}
+    for k in np.unique(marker[still]):
+        same = (np.abs(np.diff(places[:, k], axis=0)) < SAME).all(axis=1)
+        edges = np.flatnonzero(np.diff(np.r_[False, same, False].astype(int)))
+        if len(edges) and (edges[1::2] - edges[::2]).max() >= fewest:
+            found[int(k)] = same
+    return found
+
+
 def standing_twice(trial: TrialInputs) -> Iterator[Contradiction]:
     """The trial against the standing trial, frame by frame."""
     still, moving = trial.standing, trial.markers
@@ -47,11 +104,9 @@ def standing_twice(trial: TrialInputs) -> Iterator[Contradiction]:
 def markers_twice(trial: TrialInputs) -> Iterator[Contradiction]:
     """Two markers of one recording at one place all along."""
     for each in trial.recordings:
-        for one, other in combinations(range(len(each.names)), 2):
-            apart = np.abs(each.positions[:, one] - each.positions[:, other]).max(axis=1)
-            if (apart < SAME).sum() >= STILL_FOR and (apart[np.isfinite(apart)] < SAME).all():
-                what = f"{each.names[other]} is where {each.names[one]} is, in every frame"
-                yield Contradiction(each.source, "", what, "is a column copied, or one marker labelled twice?")
+        for one, other in markers_at_one_place(each.positions, STILL_FOR):
+            what = f"{each.names[other]} is where {each.names[one]} is, in every frame"
+            yield Contradiction(each.source, "", what, "is a column copied, or one marker labelled twice?")
 
 
 def coordinates_twice(trial: TrialInputs) -> Iterator[Contradiction]:

@@ -143,6 +143,19 @@ def forced(factors: tuple[float, float, float]) -> Callable[[ForcePlate], ForceP
     return change
 
 
+def one_twice(plate: ForcePlate) -> ForcePlate:
+    """The force along the walk in place of that across it."""
+    return replace(plate, wrench=replace(plate.wrench, force=plate.wrench.force[:, [0, 1, 0]]))
+
+
+def later_half(trial: TrialInputs, by: float) -> TrialInputs:
+    """A standing trial whose second half begins later [s]."""
+    still = trial.standing
+    assert still is not None
+    time = still.time + by * (np.arange(len(still.time)) >= len(still.time) // 2)
+    return replace(trial, standing=replace(still, time=time))
+
+
 def twisted(plate: ForcePlate) -> ForcePlate:
     """Moments in N mm."""
     return replace(plate, wrench=replace(plate.wrench, moment=1e3 * plate.wrench.moment))
@@ -307,6 +320,8 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "the walk for the standing trial": ("standing trial twice", lambda t: replace(t, standing=t.markers)),
     "a marker's column copied": ("one marker twice", lambda t: moved(replace(t, standing=None), doubled(0.0))),
     "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
+    "one component twice": ("copied component", lambda t: plated(t, one_twice)),
+    "thirty frames missing": ("sampling", lambda t: later_half(t, 0.3)),
     "82 kg in pounds": ("mass and upper arm", carried(181.0)),
     **modelled.DAMAGED,
 }
@@ -331,6 +346,7 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "a marker 5 mm beside another": lambda t: moved(replace(t, standing=None), doubled(0.005)),
     "0.2 s of a walk with the standing trial": lambda t: replace(t, markers=part(t.markers, 20), plates=()),
     "5 frames with the last place": lambda t: moved(replace(t, standing=None), held(5)),
+    "two frames missing": lambda t: later_half(t, 0.02),
     "110 kg with an upper arm of 0.3 m": carried(110.0),
     **modelled.NEARLY,
     "walking along -x": lambda t: replace(

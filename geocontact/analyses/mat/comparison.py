@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -10,17 +10,29 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
+from geocontact.analyses.mat.recording import SLOWEST
 from geocontact.data.errors import InputError
 from geocontact.data.wrench import Wrench
-from geocontact.identify.signals.agreement import FEWEST, ROUNDED, by_phase, overlap, samples_within
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
+from geocontact.identify.signals.agreement import (
+    FEWEST,
+    ROUNDED,
+    by_phase,
+    clock_off,
+    clock_words,
+    likely_cause,
+    overlap,
+    samples_within,
+)
 from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import TextTable, read_table
 from geocontact.io.text.units import si_unit
 from geocontact.io.text.wrench_head import WrenchHead, read_wrench_head
 from geocontact.loads.mat_load import MatLoad
+from geocontact.trial_checks.channel_checks import odd_rate
 
 MM, MM2 = 1e3, 1e6
 AXES = "xyz"
@@ -118,6 +130,8 @@ def read_model(o: MatOptions) -> ModelForces | None:
         return None
     model = ModelForces(o.compare, read_table(o.compare), read_wrench_head(o.compare))
     add_input("`compare`", o.compare, rows=len(model.table.time))
+    for odd in odd_rate(str(o.compare), "", model.table.time, SLOWEST):
+        reserve(str(odd))
     return model
 
 
@@ -179,6 +193,8 @@ def _moved(curves: Curves, model: ModelForces, ours: Wrench) -> Curves:
 
 
 PARTS = 10
+HARDLY = dict.fromkeys(FORCE, 5.0) | dict.fromkeys(MOMENT, 0.5)
+"""N and N m, by which a force or a moment changes that is not compared: noise of the cells."""
 
 Curve = Float[np.ndarray, " t"]
 
@@ -194,18 +210,41 @@ def compared(
         reserve("frames are not evenly spaced: agreement is computed at even times, without gaps")
     measured = load_table(whole, time)
     named = None if phases is None else frames_of(phases, even, o)
+    curves = {
+        name: (at_times(time, theirs, even, step), at_times(time, _own(measured, name), even, step))
+        for name, theirs in model_curves(model, whole.wrench, time, o).items()
+    }
     rows = [
         {"channel": name, "unit": UNITS[name], "phase": phase, **asdict(each)}
-        for name, theirs in model_curves(model, whole.wrench, time, o).items()
-        for model_there in [at_times(time, theirs, even, step)]
-        for ours in [at_times(time, measured[f"{name} [{UNITS[name]}]"].to_numpy(float), even, step)]
-        for phase, each in by_phase(model_there, ours, step, named, PARTS).items()
+        for name, (theirs, ours) in curves.items()
+        for phase, each in by_phase(theirs, ours, step, named, PARTS).items()
     ]
     agreed = pd.DataFrame(rows).rename(columns={"lag": "lag [s]", "r2": "r2 [-]", "correlation": "correlation [-]"})
     if not (agreed.loc[agreed["phase"] == "all", "samples"] > 0).any():
         raise InputError(model.file, "", "has no time in common with the mat", "check its time column")
     _report(agreed[agreed["phase"] == "all"])
+    doubts = tuple(_of_model(model.file, curves, step))
+    judge(GoodnessOfFit(doubts, ("forces of the model",)))
     return agreed
+
+
+def _own(measured: pd.DataFrame, name: str) -> Curve:
+    return measured[f"{name} [{UNITS[name]}]"].to_numpy(float)
+
+
+def _of_model(file: Path, curves: Mapping[str, tuple[Curve, Curve]], step: float) -> Iterator[Doubt]:
+    """Doubts for forces of a model that a constant would do better than, and for a clock that is off."""
+    for name, (theirs, ours) in curves.items():
+        both = np.isfinite(theirs) & np.isfinite(ours)
+        if name not in HARDLY or both.sum() < FEWEST or np.ptp(ours[both]) < HARDLY[name]:
+            continue
+        r2 = 1.0 - np.sum((theirs - ours)[both] ** 2) / np.sum((ours[both] - ours[both].mean()) ** 2)
+        if r2 < 0.0:
+            cause = likely_cause(theirs, ours) or ": are its axes, frame and trial those of the mat?"
+            what = f"{file} {name}: R² is {r2:.2f}, a constant would describe the mat's force better{cause}"
+            yield Doubt(what, False, -float(r2))
+        elif lag := clock_off(theirs, ours, step):
+            yield Doubt(f"{file} {name}: {clock_words(-lag)}", False, abs(lag))
 
 
 def _report(whole: pd.DataFrame) -> None:

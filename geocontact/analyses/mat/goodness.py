@@ -49,5 +49,46 @@ def _of_cells(frames: PressureFrames, saturated: Bool[np.ndarray, "t r c"]) -> I
         yield Doubt(what, share >= MUCH, share)
 
 
+BEYOND = 1.05
+"""Times the stated saturation, which cells that clip do not read."""
+DISTINCT, BESIDE = 10, 3
+"""Different pressures in a line of cells that another line repeats; cells of a line that nothing ever presses while
+both cells beside them are pressed."""
+
+
+def odd_cells(read: PressureFrames, touched: float, gate: float) -> Iterable[str]:
+    """What cells cannot be, in words: beyond their saturation, lines of them that are silent or copied, never touched.
+
+    Parameters
+    ----------
+    touched, gate
+        Pressure from which a cell counts as touched [Pa], and force from which there is a centre of pressure [N].
+    """
+    pressure = np.where(read.valid, np.nan_to_num(read.pressure), 0.0)
+    top, saturation = float(pressure.max(initial=0.0)), read.saturation
+    if top > BEYOND * saturation:
+        row, column = np.unravel_index(int(np.argmax(pressure.max(axis=0))), pressure.shape[1:])
+        what = f"row {row} column {column} reads {1e-3 * top:.4g} kPa, beyond the saturation of {1e-3 * saturation:g}"
+        yield f"{what}: is the unit of the recording or of saturation_kPa another one, or that cell faulty?"
+    if 0.0 < top < touched:
+        yield f"`touched` is {1e-3 * touched:g} kPa, and no cell reads more than {1e-3 * top:.4g}: no cell is touched"
+    heaviest = float(read.force.max(initial=0.0))
+    if 0.0 < heaviest < gate:
+        yield f"`gate` is {gate:g} N, and the force {heaviest:.4g} N at most: no frame has a centre of pressure"
+    for way, lines in (("row", pressure), ("column", np.swapaxes(pressure, 1, 2))):
+        peak = lines.max(axis=0)
+        beside = (np.minimum(peak[:-2], peak[2:]) >= touched).sum(axis=1)
+        for k in np.flatnonzero((peak[1:-1].max(axis=1) <= 0.0) & (beside >= BESIDE)) + 1:
+            yield f"no cell of {way} {k} is ever pressed, while those on both sides are: is its line broken?"
+        same = [k for k in range(lines.shape[1] - 1) if _repeats(lines[:, k], lines[:, k + 1])]
+        mirrored = len(lines) > 1 and np.array_equal(lines, lines[:, ::-1])  # a made-up course
+        for k in [] if mirrored else same:
+            yield f"{way} {k + 1} reads what {way} {k} reads, in every frame: is it a copy?"
+
+
+def _repeats(one: Float[np.ndarray, "t c"], other: Float[np.ndarray, "t c"]) -> bool:
+    return np.array_equal(one, other) and len(np.unique(one)) > DISTINCT
+
+
 def _areas(cells: Bool[np.ndarray, "t r c"], frames: PressureFrames) -> Float[np.ndarray, " t"]:
     return np.asarray(np.tensordot(cells.astype(float), np.broadcast_to(frames.cell_area, cells.shape[1:]), 2))

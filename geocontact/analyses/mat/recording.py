@@ -14,7 +14,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.bodies import read_body_motion
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
-from geocontact.analyses.mat.goodness import goodness_of_cells
+from geocontact.analyses.mat.goodness import goodness_of_cells, odd_cells
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
@@ -276,7 +276,8 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
     if o.shear_rows is None or o.shear_columns is None:
         return None
     layout = None if o.layout is None else read_layout(o.layout)
-    found = []
+    found: list[PressureFrames] = []
+    raw: list[np.ndarray] = []
     for role, file in (("`shear_rows`", o.shear_rows), ("`shear_columns`", o.shear_columns)):
         read = read_shear_grid(file, layout)
         add_input(role, file, frames=len(read.time))
@@ -284,6 +285,11 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
         if not same or not (read.valid == recorded.valid).all():
             what = f"has other cells or times than {o.frames.name}"
             raise InputError(file, role, what, "export pressure and shear of the same frames")
+        for other in [recorded.pressure, *raw]:
+            if read.pressure.any() and np.array_equal(read.pressure, other, equal_nan=True):
+                kind = "the pressure" if other is recorded.pressure else "the other shear"
+                raise InputError(file, role, f"its values are those of {kind}", "give the files of both shear stresses")
+        raw.append(read.pressure)
         stress = np.where(read.valid, read.pressure, 0.0)
         if o.unloaded is not None:
             stress = stress - _zero(read, stress, o.unloaded).at(read.time)
@@ -324,7 +330,10 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
     _reserve_beyond(seen.read)
     judge(goodness_of_cells(frames, clipping), warned=True)
-    if clipping.any():
+    odd = list(odd_cells(seen.read, o.touched, o.gate))
+    for line in odd:
+        reserve(line)
+    if clipping.any() and not any("beyond the saturation" in line for line in odd):
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
         reserve(
             f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from geocontact.analyses.frame import quantities
@@ -51,7 +52,23 @@ def axis_drift(told: Path | Mapping[str, tuple[float, ...]] | None, span: tuple[
     """
     if told is None:
         return STILL
-    return polynomial(told.get("x", ()), told.get("y", ())) if isinstance(told, Mapping) else _table(told, span)
+    drift = polynomial(told.get("x", ()), told.get("y", ())) if isinstance(told, Mapping) else _table(told, span)
+    _doubt_travel(drift, span, "" if isinstance(told, Mapping) else f"{told}: ")
+    return drift
+
+
+TRAVEL = (0.3e-3, 0.06)
+"""m; axes of elbows move by a few mm, instant centres of knees by 20 to 40 (Smidt 1973, J Biomech 6, 79-92)."""
+
+
+def _doubt_travel(drift: AxisDrift, span: tuple[float, float], file: str) -> None:
+    """A warning for an axis that moves less or farther over a range [rad] than axes of joints do."""
+    beta = np.linspace(*span, max(2, round(math.degrees(span[1] - span[0])) + 1))
+    x, y = drift.at(beta).T
+    way = float(max(np.ptp(x), np.ptp(y)))
+    if 0.0 < way < TRAVEL[0] or way > TRAVEL[1]:
+        what = f"the axis moves by {1e3 * way:.3g} mm over the range; joints' axes move by 1 to 50"
+        reserve(f"{file}`drift`: {what}: is it in mm, not in m, over angles in their unit, and no row wrong?")
 
 
 def _table(file: Path, span: tuple[float, float]) -> AxisDrift:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.modulus.identified import Identified
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
-from geocontact.data.plausible import ADHESION, CONTACT
+from geocontact.data.plausible import ADHESION, BEARING, CONTACT
 from geocontact.elastic_modulus.area_force import MODULUS, WORK
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
+from geocontact.identify.signals.agreement import likely_cause
+from geocontact.trial_checks.twice import same_recordings
 
 OFFSET, TAKEN = 0.1, 0.1
 """Parts of the largest force, and of the squared residual that may stay with a constant beside the law."""
@@ -25,10 +28,38 @@ def goodness_of(found: Identified) -> GoodnessOfFit:
     for told in found.predictions:
         if told.measured is not None and told.r2 < 0.0:
             what = f"{told.side}, trial not used: R² is {told.r2:.2f}, a constant force would do better than the law"
+            what += likely_cause(told.predicted, told.measured)
             doubts.append(Doubt(what, False))
+    forces = {f"{side} force": each.measured for side, each in found.sides.items() if side != "total"}
+    for one, other in same_recordings(forces):
+        doubts.append(Doubt(f"{other} is the {one}, sample by sample: is a column copied?", False))
+    doubts += _of_exchanged(found)
+    for told in found.predictions:
+        own = found.sides.get(told.side)
+        if own is not None and told.measured is not None and same_recordings({"a": own.measured, "b": told.measured}):
+            doubts.append(Doubt(f"{told.side}, trial not used: its force is that of the trial that was used", False))
     if words := agree_by_width(found):
         doubts.append(Doubt(words, False))
     return GoodnessOfFit(tuple(doubts), tuple(f"{side} force" for side in found.sides))
+
+
+DIFFER, AGREE = 1.3, 0.03
+"""Ratio of the moduli of both sides, and how near they come to each other where forces of the sides are exchanged."""
+
+
+def _of_exchanged(found: Identified) -> Iterable[Doubt]:
+    """A doubt for two sides whose moduli differ, and would agree if each had the other's force."""
+    if not {"medial", "lateral"} <= set(found.sides):
+        return
+    sides = [found.sides[name] for name in ("medial", "lateral")]
+    modulus = [float(np.sqrt(each.profiles[MODULUS].lower * each.profiles[MODULUS].upper)) for each in sides]
+    force = [float(np.sqrt(np.nanmean(each.measured**2))) for each in sides]
+    if not min(*modulus, *force) > 0.0:
+        return
+    ratio, exchanged = modulus[0] / modulus[1], modulus[0] / modulus[1] * (force[1] / force[0]) ** 2
+    if max(ratio, 1.0 / ratio) > DIFFER and abs(exchanged - 1.0) < AGREE:
+        what = f"E* of the sides differs by a factor of {max(ratio, 1.0 / ratio):.2f}, and would agree"
+        yield Doubt(f"{what} if medial and lateral forces were exchanged: are their columns?", False)
 
 
 def _of_zero(side: str, measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> Iterable[Doubt]:
@@ -58,6 +89,9 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield Doubt(f"{side}: the data do not limit {name} within its bounds, on one side or both", False)
     profile = each.profiles[MODULUS]
     yield from of_size(f"{side}: E*", (profile.lower, profile.upper), CONTACT)
+    pressure = float(np.nanmax(each.measured) / each.model.evolution.area.max())
+    for doubt in of_size(f"{side}: largest force over largest area", (pressure, pressure), BEARING):
+        yield replace(doubt, what=f"{doubt.what}: is the force in N, and are the areas in mm²?", contradicts=False)
     if (work := each.profiles.get(WORK)) and not work.upper_open:
         yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)
     width, radius = float(np.sqrt(each.model.evolution.area.max() / np.pi)), float(np.max(each.model.evolution.radius))

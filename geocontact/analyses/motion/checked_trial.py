@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,23 +17,25 @@ from geocontact.data.multibody.force_plate import LOADED, ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.force_plates import OPENSIM_FRAME, read_force_plates
 from geocontact.trial_checks.landmarks import FOOT, middle
-from geocontact.trial_checks.recorded import UP, FootPlate, TrialInputs
-from geocontact.trial_checks.table import contradictions
+from geocontact.trial_checks.recorded import UP, Check, FootPlate, TrialInputs
+from geocontact.trial_checks.table import CHECKS, contradictions
 from geocontact.trial_checks.twice import same_recordings
 
 STEADY_FOR, STEADY = 1.0, 0.01
 """s, and standard deviation of what all plates carry over its mean, of somebody whose whole weight is on them."""
 
 
-def check_trial(trial: TrialInputs) -> frozenset[str]:
+def check_trial(trial: TrialInputs, only: Sequence[Check] = CHECKS) -> frozenset[str]:
     """Every check of `trial_checks.table`: a warning for each contradiction; InputError for one that leaves no result.
+
+    `only` are the checks of a second recording beside a standing trial that was checked already.
 
     Returns
     -------
     frozenset of str
         Names of the checks that found something.
     """
-    found = contradictions(trial)
+    found = contradictions(trial, only)
     for check, one in found:
         if one.refuse:
             raise InputError(one.source, one.place, one.what, one.remedy)

@@ -29,5 +29,5 @@ def small_force(quantity: str, r2: float) -> str:
     return f"{NAMES[quantity]}: R² is {r2:.2f}; this force is small: judge by its error"
 
 
-ASKED = "are mass, setting, and unit and sign of the plates right?"
+ASKED = "are mass, setting, and unit, sign and clock of both plates right?"
 """What an R² below 0 of those that sentences are about asks."""

@@ -148,7 +148,22 @@ def residual_of(standing: MarkerTrajectories, length: float | None, markers: str
     places = [np.nanmedian(standing.of((name,))[:, 0], axis=0) for name in names]
     found = float(np.linalg.norm(places[0] - places[1]))
     LIMB.require(found, "`residual_markers`")
+    _refuse_other_leg(standing, places, list(names.values()))
     return found
+
+
+def _refuse_other_leg(standing: MarkerTrajectories, places: list[np.ndarray], own: list[str]) -> None:
+    """InputError for a marker that is nearer to the sound shank than to that of the prosthesis, as of a right one."""
+    ends = [(f"{side}KNE", f"{side}ANK") for side in "RL"]
+    if not {name for pair in ends for name in pair} <= set(standing.names):
+        return
+    shanks = [[np.nanmedian(standing.of((name,))[:, 0], axis=0) for name in pair] for pair in ends]
+    for place, name in zip(places, own, strict=True):
+        along = [np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0) for a, b in shanks]
+        right, left = (np.linalg.norm(a + s * (b - a) - place) for s, (a, b) in zip(along, shanks, strict=True))
+        if left < right:
+            what = f"{name} lies {1e3 * right:.0f} mm from the shank of the prosthesis, {1e3 * left:.0f} from the other"
+            raise InputError(standing.source, "`residual_markers`", what, "name markers of the residual limb; `side`?")
 
 
 def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableStiffnessFoot:

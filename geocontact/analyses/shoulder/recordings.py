@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from geocontact.io.recordings.load_cells import column_in_newtons
 from geocontact.io.text.columns import angles_of, parse_map, resolve
 from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.io.text.units import split_header
+from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ALONG,
     AROUND,
@@ -25,6 +26,7 @@ from geocontact.shoulder_exoskeleton.beside_recording import (
     TANGENTIAL,
     Channels,
 )
+from geocontact.trial_checks.channel_checks import odd_rate
 
 
 def shown_in(channel: str) -> tuple[str, float]:
@@ -141,6 +143,8 @@ def tool_runs(file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bo
     table, current, binary = _current(file)
     if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
         reserve(f"{file} `tool`: {doubt}")
+    if not binary:
+        _doubt_clock(file, table.time, time)
     on = current > (0.5 if binary else threshold)
     add_input("`tool`", file, samples=len(table.time))
     if not on.any():
@@ -149,9 +153,44 @@ def tool_runs(file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bo
     return np.asarray(on[last])
 
 
+RAISED = np.radians(60.0)
+"""Elevation from which an arm does not hang beside a person who stands upright and waits."""
+HANGING = 0.2
+"""Share of the time that the tool runs, for which no arm is raised, from which its clock is doubted."""
+
+
+def doubt_tool(file: Path, tool: Bool[np.ndarray, " t"], arms: Sequence[ArmMotion]) -> None:
+    """A warning where the tool runs while no arm is raised, in work overhead."""
+    raised = np.max([arm.elevation for arm in arms], axis=0) > RAISED
+    share = float(np.mean(~raised[tool])) if tool.any() else 0.0
+    if share > HANGING and raised.any():
+        what = f"it runs while no arm is raised by {np.degrees(RAISED):.0f} degrees for {share:.0%} of the time it runs"
+        reserve(f"{file} `tool`: {what}; is its clock that of the markers, and 1 what runs?")
+
+
+TURNED = 0.3
+"""Part of the largest current below 0 that the largest above it is less than, where the sign is turned."""
+COVERED = 0.5
+"""Share of the markers' time that the tool's recording has to cover."""
+
+
+def _doubt_clock(file: Path, own: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"]) -> None:
+    """A warning for samples that are too rare or lack, and for a recording of the tool beside that of the markers."""
+    for odd in odd_rate(str(file), "", own):
+        reserve(str(odd))
+    if np.mean((time >= own[0]) & (time <= own[-1])) < COVERED:
+        spans = f"runs from {own[0]:.4g} to {own[-1]:.4g} s, the markers from {time[0]:.4g} to {time[-1]:.4g} s"
+        reserve(f"{file} `tool`: {spans}: is it of this trial, its time in s, and on the markers' clock?")
+
+
 def tool_current(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
-    table, current, _ = _current(file)
+    table, current, binary = _current(file)
+    _doubt_clock(file, table.time, time)
+    if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
+        reserve(f"{file} `tool`: {doubt}")
+    if np.nanmax(current, initial=0.0) < TURNED * -np.nanmin(current, initial=0.0):
+        reserve(f"{file} `tool`: its current is down to {np.nanmin(current):.3g} A: is its sign turned?")
     add_input("`tool`", file, samples=len(table.time))
     return np.asarray(np.interp(time, table.time, current))
 

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
+from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_torques
 from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, person_of, worn_device
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
@@ -200,7 +201,7 @@ def channels_of(
     upright = [k for k in (-1, 0) if feet is not None and np.abs(q[k, JOINTS]).max() < UPRIGHT]
     recorded = [("strap", "N", strap)] if strap is not None else []
     if torque is not None:
-        recorded += [(f"torque {k + 1}", "N m", own) for k, own in enumerate(torque.T)]
+        recorded += [(f"torque of {name}", "N m", own) for name, own in zip(HINGES, torque.T, strict=False)]
     check_trial(
         TrialInputs(
             plates=plates_of,
@@ -212,7 +213,10 @@ def channels_of(
             channels=tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in recorded),
         )
     )
-    return StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
+    trial = StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
+    if files.torques is not None:
+        doubt_torques(files.name, files.torques, chain, trial)
+    return trial
 
 
 def _stance(

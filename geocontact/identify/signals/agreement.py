@@ -97,6 +97,32 @@ def clock_words(lag: float) -> str:
     return f"the recording is {abs(lag):.2f} s {'early' if lag > 0.0 else 'late'}: is its clock right?"
 
 
+SIZES, UNIT_RATIOS = 0.02, (9.80665, 4.4482216, 25.4, 10.0, 100.0, 1000.0)
+"""Part of a curve's size below which, or its inverse above which, another unit is likely; and ratios of two units:
+kgf and lbf to N, in, cm and m to mm, kN to N."""
+EXACT, SAME_COURSE = 0.04, 0.9
+"""Share by which a ratio of sizes may be off that of two units, and correlation from which courses are one."""
+
+
+def likely_cause(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"]) -> str:
+    """Why a model may describe a recording worse than a constant: another unit, a turned sign; empty where neither is.
+
+    The words go on a sentence.
+    """
+    there = np.isfinite(model) & np.isfinite(measured)
+    model, measured = model[there], measured[there]
+    if not model.any() or not measured.any():
+        return ""
+    size = float(np.sqrt(np.mean(measured**2) / np.mean(model**2)))
+    vary = np.std(model) > 0.0 and np.std(measured) > 0.0
+    course = float(np.corrcoef(model, measured)[0, 1]) if vary else 0.0
+    ratios = [each**sign for each in UNIT_RATIOS for sign in (1.0, -1.0)]
+    of_units = course > SAME_COURSE and any(abs(size / ratio - 1.0) < EXACT for ratio in ratios)
+    if of_units or size < SIZES or size > 1.0 / SIZES:
+        return f"; recorded values are {size:.2g} times the simulated ones: is the unit right?"
+    return ": is a sign turned?" if course < 0.0 else ""
+
+
 def per_phase(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, parts: int = 10
 ) -> list[Agreement]:

@@ -151,7 +151,9 @@ def read_law(path: str | PathLike[str]) -> LawFile:
     if not content:
         raise InputError(file, "", "holds no number", "write lines such as n = 1.2")
     try:
-        return LawFile.model_validate(content)
+        law = LawFile.model_validate(content)
+        _warn_of_friction(file, law)
+        return law
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(map(str, first["loc"]))
@@ -160,6 +162,14 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         if place.startswith("foot"):
             remedy = "[foot] has height, height_sd [m], pitch, pitch_sd [rad] and standing, a SHA-256"
         raise InputError(file, place, what, remedy) from error
+
+
+def _warn_of_friction(file: str, law: LawFile) -> None:
+    """A warning for kinetic friction that is larger than the static one, of all spheres or of a zone."""
+    for place, of in (("", law), *((f" [zone.{name}]", zone) for name, zone in law.zone.items())):
+        if of.mu_s is not None and of.mu_k is not None and of.mu_k > of.mu_s:
+            what = f"kinetic friction mu_k {of.mu_k:g} is larger than the static mu_s, {of.mu_s:g}; are they exchanged?"
+            warnings.warn(f"{file}{place}: {what}", InputWarning, stacklevel=3)
 
 
 def _table_text(path: str | PathLike[str]) -> str:

@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 
 
 MM, MM2, MPA = 1e3, 1e6, 1e-6
+LIFTED = 0.01
+"""Share of the force that a condyle carries, below which it has lifted off, or the sides meet elsewhere."""
 
 
 def settle_table(s: Settled) -> pd.DataFrame:
@@ -193,6 +195,11 @@ def run(i: SettleInputs, o: SettleOptions) -> SettleResult:
     rest = frames[heaviest].rest
     balance = None if rest is None else energy_balance(i.bed, frames[heaviest].pull, rest, i.free)
     judge(goodness_of(i, settled, balance))
+    shares = settled.forces("medial") / settled.forces("total")
+    lifted = float(np.mean((shares > 1.0 - LIFTED) | (shares < LIFTED)))
+    if lifted >= MUCH:
+        what = f"in {lifted:.0%} of the frames all of the force is medial, or all lateral"
+        reserve(f"{what}: unless there is one condyle, are `split`, `load_point` and `springs` right?")
     _summarise(i, settled, balance)
     say(f"medial is {medial_side(o.split, o.side, None).words} of {i.fixed.name}")
     published = None if o.compare is None else beside_published_areas(_knee_run(settled))

@@ -24,10 +24,13 @@ from geocontact.identify.signals.agreement import Agreement, agreement
 from geocontact.identify.signals.angle_bins import angle_bins, edges_over
 from geocontact.identify.signals.filters import at_times, even_times
 from geocontact.io.text.file_preflight import read_json
+from geocontact.trial_checks.twice import same_recordings
 from geocontact.view.curves.quantity import Quantity
 
 QUANTITIES = {"force": CONSTRAINT, "displacement": Quantity("displacement of the joint", "mm", 1e3)}
 """What channels are called and shown in."""
+SLIDES = 5e-3
+"""m; a joint that is locked has less play."""
 SAME_MOTION = float(np.radians(2.0))
 """rad, root mean square, that angles of a recording and its model may be apart."""
 
@@ -72,12 +75,19 @@ def read(o: CompareOptions) -> Both:
     """Everything the options name."""
     measured = recordings("measured", o.recordings, o.map, o.angles, o.unit, o.cutoff)
     if o.fit is None:
-        return Both(measured, recordings("simulated", o.simulated or (), None, o.angles, o.unit, None))
+        model = recordings("simulated", o.simulated or (), None, o.angles, o.unit, None)
+        for path, one, other in zip(o.recordings, measured, model, strict=True):
+            if same_recordings({"measured": one.force, "simulated": other.force}):
+                reserve(f"{path}: its force is that of the simulated recording, sample by sample: is it a copy?")
+        return Both(measured, model)
     law = _law(o.fit)
     add_input("`fit`", o.fit)
     for path, r in zip(o.recordings, measured, strict=True):
         if o.stroke is not None and (r.displacement is None or float(np.ptp(r.displacement)) < SLID):
             reserve(f"{path}: no displacement of its joint was recorded, or it does not slide: was it locked? `stroke`")
+        if o.stroke is None and r.displacement is not None and float(np.ptp(r.displacement)) > SLIDES:
+            slid = f"its joint slides by {1e3 * float(np.ptp(r.displacement)):.0f} mm"
+            reserve(f"{path}: {slid}, and a locked one is simulated: give its `stroke`")
     return Both(measured, law)
 
 

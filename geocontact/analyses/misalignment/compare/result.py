@@ -15,9 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pandas as pd
-from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import judge, note, say
 from geocontact.analyses.frame.job import Job
@@ -33,7 +31,7 @@ from geocontact.analyses.misalignment.compare.pairs import (
 )
 from geocontact.analyses.misalignment.compare.show import channel_curves, comparison_page
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_many_r2
-from geocontact.identify.signals.agreement import clock_off, clock_words
+from geocontact.identify.signals.agreement import clock_off, clock_words, likely_cause
 from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.curves.drawn import drawn
 from geocontact.view.page.tables import frame_table
@@ -113,20 +111,14 @@ def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
     doubts: list[Doubt] = []
     for channel in QUANTITIES:
         mine = [p for p in pairs if p.channel == channel]
-        turned = any(p.agreement.r2 < 0.0 and is_turned(p.measured, p.model) for p in mine)
-        asked = ": is a sign turned?" if turned else ""
+        causes = [likely_cause(p.model, p.measured) for p in mine if p.agreement.r2 < 0.0]
+        asked = next(filter(None, causes), "")
         found = of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine})
         doubts += [replace(each, what=f"{each.what}{asked}") for each in found]
         for p in mine:
             if lag := clock_off(p.model, p.measured, float(p.time[1] - p.time[0])):
                 doubts.append(Doubt(f"{p.trial}, {channel}: {clock_words(lag)}", False, abs(lag)))
     return GoodnessOfFit(tuple(doubts), tuple(f"{p.trial}, {p.channel}" for p in pairs))
-
-
-def is_turned(measured: Float[np.ndarray, " t"], model: Float[np.ndarray, " t"]) -> bool:
-    """Whether one falls where the other rises."""
-    both = np.isfinite(measured) & np.isfinite(model)
-    return bool(np.sum((measured[both] - measured[both].mean()) * (model[both] - model[both].mean())) < 0.0)
 
 
 compare = Job("elbow compare", CompareOptions, read, run)

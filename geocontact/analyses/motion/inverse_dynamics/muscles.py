@@ -21,6 +21,7 @@ from geocontact.identify.signals.filters import gaps, in_gaps
 from geocontact.io.opensim.muscle_paths import MusclePaths, muscle_paths
 from geocontact.io.recordings.area_table import read_force_curves
 from geocontact.io.text.tables import listed
+from geocontact.trial_checks.channel_checks import odd_rate
 from geocontact.view.curves.declared import INK, Curve, Curves, stroke
 
 if TYPE_CHECKING:
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from geocontact.dynamics.residuals import GeneralisedForces
     from geocontact.dynamics.tree import Tree
 
+PRESSED = 30.0
+"""N, that measured contact forces of a knee reach in every movement: the shank alone weighs as much."""
 IDLE = 1.0
 """N m; a coordinate about which all muscles together make less in every frame is left to no muscle."""
 MISSED = 0.05
@@ -154,6 +157,8 @@ def _held(given: Loaded, o: IdOptions) -> Float[np.ndarray, " t"] | None:
         return None
     curves = read_force_curves(o.held, o.held_unit, {})
     add_input("`held`", o.held, unit=curves.unit)
+    for odd in odd_rate(str(o.held), "", curves.time):
+        reserve(str(odd))
     if "total" not in curves.forces:
         raise InputError(o.held, "", "has no total", "give total, or medial and lateral")
     found = np.interp(given.time, curves.time, curves.forces["total"], left=np.nan, right=np.nan)
@@ -162,6 +167,12 @@ def _held(given: Loaded, o: IdOptions) -> Float[np.ndarray, " t"] | None:
     if not there.any():
         span = f"{curves.time[0]:g} to {curves.time[-1]:g} s"
         raise InputError(o.held, "", f"no frame of the motion lies in its time ({span})", "are the clocks the same?")
+    largest = float(np.abs(found[there]).max())
+    if largest < PRESSED:
+        what = f"its force is {largest:.3g} N at most where the motion is"
+        reserve(f"{o.held}: {what}: is it in N, not in kN or parts of the body's weight?")
+    if float(np.median(found[there])) < 0.0:
+        reserve(f"{o.held}: its force is below 0 most of the time: compression is positive here; is its sign turned?")
     if not there.all():
         lacking = f"{int((~there).sum())} of {len(there)} frames lie outside its time or in gaps"
         reserve(f"{o.held}: {lacking}: muscles alone there")
@@ -199,7 +210,7 @@ def _goodness(made: Float[np.ndarray, " t"], held: Float[np.ndarray, " t"]) -> G
     """Whether muscles that make the moments can press as was measured."""
     most, largest = float(np.abs(made - held).max()), float(np.abs(held).max())
     what = f"contact held: the measured force is missed by up to {most:.0f} N, which no muscle makes with these moments"
-    doubts = (Doubt(what, False, most / largest),) if most > MISSED * largest else ()
+    doubts = (Doubt(what, False, most / max(largest, IDLE)),) if most > MISSED * largest else ()
     return GoodnessOfFit(doubts, ("held contact force",))
 
 

@@ -41,7 +41,9 @@ from geocontact.below_knee_prosthesis.keel.identification import (
 )
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
-from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_bounds, of_residual
+from geocontact.data.plausible import Plausible
+from geocontact.data.units import GPa
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_bounds, of_residual, of_size
 
 if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
@@ -51,6 +53,13 @@ PLACES = 35
 """Fulcrums at which the stiffness is shown."""
 MISSED = 0.05
 """Share of a stiffness by which the sole may miss it."""
+MODULI = (
+    (1450.0, Plausible("Young's modulus of a polymer", GPa, (0.01, 100.0), (0.5, 12.0))),
+    (2200.0, Plausible("Young's modulus of a laminate of glass or carbon fibre", GPa, (0.1, 600.0), (7.0, 160.0))),
+    (np.inf, Plausible("Young's modulus of a metal", GPa, (1.0, 600.0), (40.0, 230.0))),
+)
+"""By densities below [kg/m³]: acetal and nylon have 1 to 4 GPa, with short fibres up to 12; laminates 8 to 150; light
+alloys and steels 45 to 210."""
 STATED_OFF = 1.5
 """Times that an EI of the file may be off the one that its compressions have."""
 
@@ -227,6 +236,13 @@ def fit_of(given: CompressedFoot, beam: IdentifiedKeel, sole: IdentifiedSole) ->
     if given.given.known and not 1.0 / STATED_OFF < beam.keel.bending / stated < STATED_OFF:
         what = f"EI of the file, {stated:.3g} N m², is not that of its compressions, {beam.keel.bending:.3g} N m²"
         doubts.append(Doubt(f"{what}: check bending, or modulus, width and thickness", False))
+    if given.given.described.keel.thickness is not None:
+        tested.append("modulus of the keel")
+        kind = next(each for densest, each in MODULI if given.given.foot.keel.density < densest)
+        keel = given.given.foot.keel
+        moduli = [12.0 * ei / (keel.width * keel.thickness**3) for ei in (beam.numbers[0].lower, beam.numbers[0].upper)]
+        for doubt in of_size("EI of the keel over its width and thickness³/12", (moduli[0], moduli[1]), kind):
+            doubts.append(replace(doubt, what=f"{doubt.what}; are forces in N, deflections and section in mm?"))
     low, high = given.given.foot.keel.range
     ends = {one.name: (one.value, low, high) for one in beam.numbers if one.unit == "m"}
     if given.series is None:

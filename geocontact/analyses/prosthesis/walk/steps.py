@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
@@ -36,6 +37,8 @@ from geocontact.below_knee_prosthesis.recorded_walk import AFTER, BEFORE, INSIDE
 from geocontact.data.errors import InputError
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.io.mocap.force_plates import plate_named
+from geocontact.trial_checks.recorded import TrialInputs
+from geocontact.trial_checks.table import MOVED_CHECKS
 
 EVERY, TOLERANCE = 1e-3, 1e-6
 """s between samples of the motion, and the error that a step may have."""
@@ -93,14 +96,16 @@ def read(o: ProsthesisWalkOptions) -> RecordedPerson:
         foot = foot_with_law(foot, o.law)
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     still, walking = lab.markers("`static`", o.static), lab.markers("markers", o.markers, o.time)
-    moved = None if o.functional is None else lab.right(lab.markers("`functional`", o.functional))
+    functional = None if o.functional is None else lab.markers("`functional`", o.functional)
     plates = lab.plates(o.plates)
     add_input("`plates`", o.plates, plates=len(plates))
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     other = plate_named(plates, o.other_plate, o.plates, "`other_plate`")
     lab.check(still, walking, o.mass, o.plates, own, other, height=o.height)
+    if functional is not None:
+        check_trial(TrialInputs(functional, still), only=MOVED_CHECKS)
     standing, seen = lab.right(still), lab.right(walking)
-    joints = NO_JOINTS if moved is None else standing_joints(standing, moved)
+    joints = NO_JOINTS if functional is None else standing_joints(standing, lab.right(functional))
     person = Person(o.mass, o.sex, o.residual)
     made = standing_amputee(standing, person, foot, fulcrum, foot.record.below, joints, o.height)
     length = residual_of(standing, o.residual_length, o.residual_markers, o.side)

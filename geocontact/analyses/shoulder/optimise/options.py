@@ -10,7 +10,7 @@ from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Spell
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.shoulder.shared_options import TORQUE_RATE, Share, require_share
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP, LIMIT
+from geocontact.data.plausible import CUTOFF, GAP, LEFT, LIMIT, MOST_OF
 
 FEWEST_DRAWS = 20
 
@@ -81,11 +81,11 @@ class ShoulderOptimiseOptions(Options):
     _: KW_ONLY
     device: str = "lucy_new_cylinder"
     aim: Literal["mean", "worst", "cvar"] = "mean"
-    worst_share: Share | None = None
+    worst_share: Annotated[Share | None, LEFT] = None
     force_limit: Annotated[float | None, LIMIT] = None
     rate_limit: Annotated[float | None, TORQUE_RATE] = None
-    reserve: Annotated[Share, Spelled(default="0%")] = 0.0
-    certainty: Share | None = None
+    reserve: Annotated[Share, LEFT, Spelled(default="0%")] = 0.0
+    certainty: Annotated[Share | None, MOST_OF] = None
     scale: Literal["arm", "none"] = "arm"
     dominant_share: Annotated[Share, Spelled(default="100%")] = 1.0
     draws: int = 200

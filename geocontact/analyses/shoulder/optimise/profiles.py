@@ -13,7 +13,7 @@ from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
-from geocontact.analyses.shoulder.recordings import push_force, tool_current
+from geocontact.analyses.shoulder.recordings import doubt_tool, push_force, tool_current
 from geocontact.analyses.shoulder.study_checks import check_study, doubt_share
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
@@ -104,6 +104,8 @@ def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, l
     arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use, o.cutoff)
     for note in notes:
         reserve(f"{trial.markers.name}: {note}")
+    if current.any():
+        doubt_tool(trial.tool or trial.markers, use.running, [arm.motion for arm in arms])
     return arms
 
 

@@ -14,7 +14,7 @@ from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.analyses.motion.checked_trial import StandsOn, check_trial, standing_on
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
 from geocontact.analyses.shoulder.devices import device_named, read_profiles, wearer_named
-from geocontact.analyses.shoulder.recordings import current_at, tool_runs
+from geocontact.analyses.shoulder.recordings import RAISED, current_at, doubt_tool, tool_runs
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
@@ -101,10 +101,6 @@ def worn_along(
     return Worn(found.arms, found.frame, found.markers, seen.names, device, wearer, tool, led)
 
 
-RAISED = np.radians(60.0)
-"""Elevation from which an arm does not hang beside a person who stands upright and waits."""
-
-
 def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> None:
     """A warning where an arm is raised in the span that is to be an upright stance."""
     if o.upright is None:
@@ -116,19 +112,6 @@ def _doubt_upright(o: ShoulderSimulateOptions, arms: tuple[ArmMotion, ...]) -> N
         if raised > RAISED:
             what = f"the {arm.side} arm is {np.degrees(raised):.0f} degrees up then"
             reserve(f"`upright`: {what}: is that a stance, and not the middle of the work?")
-
-
-HANGING = 0.2
-"""Share of the time that the tool runs, for which no arm is raised, from which its clock is doubted."""
-
-
-def doubt_tool(file: Path, tool: Bool[np.ndarray, " t"], arms: Sequence[ArmMotion]) -> None:
-    """A warning where the tool runs while no arm is raised, in work overhead."""
-    raised = np.max([arm.elevation for arm in arms], axis=0) > RAISED
-    share = float(np.mean(~raised[tool])) if tool.any() else 0.0
-    if share > HANGING and raised.any():
-        what = f"it runs while no arm is raised by {np.degrees(RAISED):.0f} degrees for {share:.0%} of the time it runs"
-        reserve(f"{file} `tool`: {what}; is its clock that of the markers, and 1 what runs?")
 
 
 def controllers(

@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.sit_to_stand.design.options import StandingDesignOptions
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_straps
 from geocontact.analyses.sit_to_stand.standing_trials import refuse_stances, standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows
 from geocontact.data.errors import InputError
@@ -72,6 +73,7 @@ def read(o: StandingDesignOptions) -> TrialsToHelp:
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in known}, bounds)
     ends = read_contact_intervals(o.parameters, values)
     add_input("`parameters`", o.parameters, parameters=len(values))
+    doubt_straps(o.study, trials, values)
     if o.draws and not ends:
         remedy = "give parameters.csv of a calibration, or no draws"
         raise InputError(o.parameters, "lower, upper", "has no intervals to draw from", remedy)

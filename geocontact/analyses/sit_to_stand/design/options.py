@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.frame.marks import Expression, Fraction, Spelled
 from geocontact.analyses.sit_to_stand.search_options import NODES, StandingSearchOptions, within
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import MOST_OF
 from geocontact.standing_up.assistance_room import ROOM
 
 MOST_DRAWS, MOST_POINTS = 200, 50
@@ -59,7 +60,7 @@ class StandingDesignOptions(StandingSearchOptions):
     parameters: Path
     vary: Expression = "share,timing,place"
     aim: Literal["strap", "energy", "shank", "pelvis"] = "strap"
-    knee: Annotated[Fraction, Spelled(default="0.8")] = 0.8
+    knee: Annotated[Fraction, MOST_OF, Spelled(default="0.8")] = 0.8
     front: int = 0
     draws: int = 0
     robust: bool = False

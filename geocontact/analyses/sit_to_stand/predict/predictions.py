@@ -12,6 +12,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_straps
 from geocontact.analyses.sit_to_stand.standing_trials import refuse_stances, standing_trials
 from geocontact.analyses.sit_to_stand.trial_tables import certificate_rows, mesh_table, not_certified
 from geocontact.data.errors import InputError
@@ -102,6 +103,7 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
     bounds = {each.name: (each.least, each.most) for each in every}
     values = read_contact_parameters(o.parameters, {each.name: each.unit for each in every}, bounds)
     add_input("`parameters`", o.parameters, parameters=len(values))
+    doubt_straps(o.study, trials, values)
     p = searched(every, [values[each.name] for each in every])
     predictors = [Predictor(name, tracks, p) for name, tracks in GIVEN.items()]
     if o.perturb:

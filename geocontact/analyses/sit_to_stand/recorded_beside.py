@@ -1,0 +1,88 @@
+"""Torques and straps of a recording beside what its other channels ask for: a warning for each that is another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from geocontact.analyses.frame.collector import reserve
+from geocontact.data.multibody.model import Multibody
+from geocontact.identify.signals.agreement import clock_words, lag_of
+from geocontact.identify.signals.filters import zero_lag
+from geocontact.standing_up.chain import JOINTS, leg_chain
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
+from geocontact.standing_up.recorded_balance import strap_by_coordinates, torques_by_ground
+from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
+
+HINGES = (*JOINTS, *EXO_JOINTS)
+"""Joints, and hinges beside them, in the order of a file of torques."""
+MISSED, MOST = 0.3, 20.0
+"""Of the torque that the ground asks for, and N m, both root mean square: from where the recorded one is another. In
+ten synthetic trials they are 3 to 6 % apart."""
+ONE_LEG = (0.4, 0.6)
+"""Of that torque, which one of two legs makes."""
+STRAPPED, SMALLER, LARGER = 5.0, 0.15, 6.0
+"""N, by which a strap's force varies, recorded or by coordinates, from which on both are compared, and parts of the one
+that are another unit; errors of angles make it 1.4 times too large by coordinates."""
+TURNED, ALIKE = -0.4, 0.5
+"""Correlations of both, below which a sign is turned, and above which a lag is looked at."""
+CUTOFF, FARTHEST, LATE, CLEARER = 6.0, 0.45, 0.1, 0.2
+"""Hz, of both; s, of the lags that are looked at, and s and correlation from which a clock is doubted."""
+
+
+def doubt_torques(name: str, file: Path, chain: Multibody, trial: StandingTrial) -> None:
+    """Recorded torques of the joints, and of hinges beside them, with those that ground and coordinates ask for."""
+    if trial.torque is None or trial.chair is not None or not trial.force.any():
+        return
+    asked = torques_by_ground(chain, trial.q, trial.force, trial.centre)
+    given = trial.torque[:, :3] + (trial.torque[:, 3:] if trial.torque.shape[1] > 3 else 0.0)
+    off, size = (np.sqrt(np.mean(each**2, axis=0)) for each in (given - asked, asked))
+    missed = [k for k in range(len(JOINTS)) if off[k] > max(MISSED * size[k], MOST)]
+    if not missed:
+        return
+    parts = np.array([given[:, k] @ asked[:, k] / (asked[:, k] @ asked[:, k]) for k in missed])
+    named = ", ".join(f"{JOINTS[k]} ({off[k]:.0f} of {size[k]:.0f} N m)" for k in missed)
+    if (parts < 0.0).all():
+        why = "is their sign turned?"
+    elif ((parts > ONE_LEG[0]) & (parts < ONE_LEG[1])).all():
+        why = "are they of one leg?"
+    elif (np.abs(parts) < 0.05).all():
+        why = "are they in N m, and not for each kg of the body?"
+    else:
+        why = "are they of this trial, of these joints, and those of the exoskeleton in their sign?"
+    reserve(f"{name}: {file} is off the torques that ground reaction and coordinates ask for, rms: {named}; {why}")
+
+
+def doubt_straps(file: Path, trials: StandingUpTrials, values: Mapping[str, float]) -> None:
+    """Recorded normal force of each strap with that of its spring between person and exoskeleton."""
+    chain = two_chains(trials.subject) if trials.exoskeleton else leg_chain(trials.subject)
+    for trial in trials.trials:
+        if trial.straps is None:
+            continue
+        step = 1.0 / trial.rate
+        q = zero_lag(trial.q, step, CUTOFF)
+        for site, recorded in zip(trials.sites, trial.straps.T, strict=True):
+            if np.isfinite(recorded).all():
+                why = _another(strap_by_coordinates(chain, q, site, values), zero_lag(recorded, step, CUTOFF), step)
+                if why:
+                    reserve(f"{trial.name}: the force of the strap at the {site.name} in {file.name} {why}")
+
+
+def _another(asked: Float[np.ndarray, " t"], recorded: Float[np.ndarray, " t"], step: float) -> str:
+    """Why a strap's recorded force is not that of its spring; empty where it may be."""
+    expected, varies = float(np.std(asked)), float(np.std(recorded))
+    if max(expected, varies) < STRAPPED:
+        return ""
+    if not SMALLER * expected < varies < LARGER * expected:
+        what = f"varies by {varies:.2g} N, by coordinates and stiffness by {expected:.2g} N"
+        return f"{what}: is it in N, does its cell work, and are the parameters those of this strap?"
+    _, now = lag_of(asked, recorded, step, 0.0)
+    if now < TURNED:
+        return "falls where its spring is pressed more: is its sign turned, or are the device's angles others?"
+    lag, there = lag_of(asked, recorded, step, FARTHEST)
+    if LATE <= abs(lag) < FARTHEST - step and there - now >= CLEARER and there > ALIKE:
+        return f"is not in time with the coordinates: {clock_words(lag)}"
+    return ""
