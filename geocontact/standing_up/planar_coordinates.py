@@ -113,7 +113,7 @@ def _centre(poses: Mapping[str, RigidTransform], joint: JointModel) -> Places:
 
 def _turn(up: Places, forwards: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:
     """Turn of an upright line about z, to the back positive."""
-    return np.arctan2(-(up @ forwards), up[:, 1])
+    return np.asarray(np.arctan2(-(up @ forwards), up[:, 1]))
 
 
 def _leaning(line: Places, forwards: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " t"]:

@@ -99,7 +99,7 @@ def load_of_the_rest(
     needed = Function("needed", [tree.q, tree.u, tree.a], [generalised_forces(tree)[:3, :]]).map(len(q))
     balance = needed(q.T, u.T, a.T).full().T
     about = balance[:, 2] + q[:, 0] * balance[:, 1] - q[:, 1] * balance[:, 0]
-    return np.column_stack([balance[:, :2], about]) - ground
+    return np.asarray(np.column_stack([balance[:, :2], about]) - ground)
 
 
 def smooth(time: Times, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "t c"]:

@@ -84,7 +84,7 @@ def held_steps(places: Float[np.ndarray, "n m 3"], fewest: int) -> dict[int, Boo
     still = (np.abs(places[at[row] + 1, marker] - places[at[row], marker]) < SAME).all(axis=1)
     found = {}
     for k in np.unique(marker[still]):
-        same = (np.abs(np.diff(places[:, k], axis=0)) < SAME).all(axis=1)
+        same = np.all(np.abs(np.diff(places[:, k], axis=0)) < SAME, axis=1)
         edges = np.flatnonzero(np.diff(np.r_[False, same, False].astype(int)))
         if len(edges) and (edges[1::2] - edges[::2]).max() >= fewest:
             found[int(k)] = same

@@ -78,8 +78,8 @@ def odd_cells(read: PressureFrames, touched: float, gate: float) -> Iterable[str
     for way, lines in (("row", pressure), ("column", np.swapaxes(pressure, 1, 2))):
         peak = lines.max(axis=0)
         beside = (np.minimum(peak[:-2], peak[2:]) >= touched).sum(axis=1)
-        for k in np.flatnonzero((peak[1:-1].max(axis=1) <= 0.0) & (beside >= BESIDE)) + 1:
-            yield f"no cell of {way} {k} is ever pressed, while those on both sides are: is its line broken?"
+        for silent in np.flatnonzero((peak[1:-1].max(axis=1) <= 0.0) & (beside >= BESIDE)) + 1:
+            yield f"no cell of {way} {silent} is ever pressed, while those on both sides are: is its line broken?"
         same = [k for k in range(lines.shape[1] - 1) if _repeats(lines[:, k], lines[:, k + 1])]
         mirrored = len(lines) > 1 and np.array_equal(lines, lines[:, ::-1])  # a made-up course
         for k in [] if mirrored else same:

@@ -258,7 +258,7 @@ def foot_task(stance: RecordedStance, pelvis: RigidTransform, leg: Leg, keel: Ke
     place, hip = leg.turn.inv(), pelvis.apply(leg.hip)
 
     def turn(up: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, " t"]:
-        return np.arctan2(-np.einsum("ti,ti->t", level, up[:, ::2]), up[:, 1])
+        return np.asarray(np.arctan2(-np.einsum("ti,ti->t", level, up[:, ::2]), up[:, 1]))
 
     along = level[kept].mean(axis=0)
     pitch = np.arcsin(np.clip(axis[:, 1], -1.0, 1.0))

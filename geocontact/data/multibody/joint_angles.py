@@ -21,10 +21,11 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.data.multibody.model import Multibody
 
+TurnSequence = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ"]
 JointAngleForm = Literal[
     "ISB", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ", "quaternion"
 ]
-ISB = "ZXY"
+ISB: TurnSequence = "ZXY"
 LOCKED = float(np.radians(0.1))
 """Distance of the second angle from its end [rad] within which first and third have no value."""
 UNSURE = float(np.radians(10.0))
@@ -67,7 +68,7 @@ def joint_angles(rotation: Rotation, form: JointAngleForm) -> JointAngles:
         flips = np.where(np.einsum("ti,ti->t", four[1:], four[:-1]) < 0.0, -1.0, 1.0)
         four[1:] *= np.cumprod(flips)[:, None]
         return JointAngles(dict(zip("wxyz", four.T, strict=True)), np.full(len(four), np.inf))
-    sequence = ISB if form == "ISB" else form
+    sequence: TurnSequence = ISB if form == "ISB" else form
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Gimbal lock", UserWarning)
         three = np.atleast_2d(rotation.as_euler(sequence))

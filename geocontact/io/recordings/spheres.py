@@ -166,7 +166,8 @@ def read_law(path: str | PathLike[str]) -> LawFile:
 
 def _warn_of_friction(file: str, law: LawFile) -> None:
     """A warning for kinetic friction that is larger than the static one, of all spheres or of a zone."""
-    for place, of in (("", law), *((f" [zone.{name}]", zone) for name, zone in law.zone.items())):
+    numbers: dict[str, LawFile | ZoneLaw] = {"": law, **{f" [zone.{name}]": zone for name, zone in law.zone.items()}}
+    for place, of in numbers.items():
         if of.mu_s is not None and of.mu_k is not None and of.mu_k > of.mu_s:
             what = f"kinetic friction mu_k {of.mu_k:g} is larger than the static mu_s, {of.mu_s:g}; are they exchanged?"
             warnings.warn(f"{file}{place}: {what}", InputWarning, stacklevel=3)

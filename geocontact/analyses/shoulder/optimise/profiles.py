@@ -105,7 +105,7 @@ def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, l
     for note in notes:
         reserve(f"{trial.markers.name}: {note}")
     if current.any():
-        doubt_tool(trial.tool or trial.markers, use.running, [arm.motion for arm in arms])
+        doubt_tool(trial.tool, use.running, [arm.motion for arm in arms])
     return arms
 
 

@@ -227,7 +227,7 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     if len(turning):
         say(f"right and left differ by {turning['rms'].max():.1f}° and {turning['largest'].max():.1f}° at most")
     if out["rms"].max() > FAR_OUT:
-        worst = out.loc[out["rms"].idxmax(), "of"]
+        worst = out["of"].iloc[int(out["rms"].argmax())]
         reserve(f"{worst} is out of the plane by {out['rms'].max():.0f}° (RMS): a planar chain shortens it")
     if len(turning) and turning["rms"].max() > FAR_APART:
         reserve(f"the legs do not move alike, by {turning['rms'].max():.0f}° (RMS): ask for one `leg`")
