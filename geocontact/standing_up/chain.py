@@ -58,7 +58,7 @@ class Subject:
     height: float = 1.75
     device: WornDevice = SHIPPED_DEVICE
     sex: Sex = "male"
-    own: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    own: Mapping[str, Mapping[str, float]] = field(default_factory=dict, hash=False)
 
     @property
     def segments(self) -> dict[str, PersonSegment]:

@@ -109,3 +109,9 @@ def test_a_study_says_whose_segments_they_are(tmp_path: Path) -> None:
     text = '[person.thigh]\nmass = { value = 30, unit = "kg" }\n[person.trunk]\nmass = { value = 30, unit = "kg" }\n'
     with pytest.raises(gc.InputError, match=r"study\.toml \[person\]: both legs have .* check their sum"):
         standing_trials(study_with(tmp_path, text), "study")
+
+
+def test_a_person_with_own_segments_can_be_looked_up() -> None:
+    """Equations of a person are kept, by the person: others with the same mass and height are others."""
+    one, other = (Subject(50.0, 1.6, own=own) for own in (OWN, {}))
+    assert len({one: 1, other: 2, Subject(50.0, 1.6, own=dict(OWN)): 3}) == 2
