@@ -238,8 +238,8 @@ LENGTH_OF_TRIAL = Plausible("the length of a trial", S, (1.0, 3600.0))
 MEMORY = Plausible("a correlation time", S, (0.0, 600.0), (0.0, 30.0))
 
 SHARE = Plausible("a share", percent, (1e-10, 100.0))
-MOST_OF = Plausible("a share that most is to be of", percent, (0.0, 100.0), (20.0, 100.0), or_zero=True)
-LEFT = Plausible("a share that is left as a margin", percent, (0.0, 100.0), (1.0, 60.0), or_zero=True)
+MOST_OF = Plausible("a share that most is to be of", percent, (0.0, 1e4), (20.0, 100.0), or_zero=True)
+LEFT = Plausible("a share that is left as a margin", percent, (0.0, 1e4), (1.0, 60.0), or_zero=True)
 DIFFERENCE = Plausible("a relative difference", percent, (1e-7, 1e5))
 
 DISPLACEMENT = ByPlace((SHIFT, TILT))
