@@ -204,11 +204,12 @@ def test_a_law_of_foam_is_none_of_spheres(tmp_path: Path) -> None:
         sole_law(table, CopOptions(tmp_path / "spheres.csv", motion=tmp_path / "foot.csv", law=tmp_path / "law.toml"))
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_foam_is_calibrated_and_its_law_goes_on(tmp_path: Path) -> None:
     """Shipped trial, coarse columns: law.toml says of what it is, and the simulated stance carries the person."""
-    write_foot(tmp_path, vsf_on_foam(20e-3, 1))
-    foot, count = tmp_path / "foot.toml", len(vsf_on_foam(20e-3, 1).sole.spheres)
+    write_foot(tmp_path, vsf_on_foam(8e-3, 1))
+    foot, count = tmp_path / "foot.toml", len(vsf_on_foam(8e-3, 1).sole.spheres)
     given = {name: GIVEN[name] for name in ("static", "mass", "plates", "plate")}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", gc.InputWarning)
