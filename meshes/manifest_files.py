@@ -35,9 +35,11 @@ FOLDER_KINDS = {
     "soft": "recording",
     "firm": "recording",
     "hard": "recording",
+    "body": "model",
+    "ik": "motion",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "overhead_*", "standing_up*")
+FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "overhead_*", "standing_up*", "whole_body")
 """Of recordings and trials, in the order of the manifest."""
 
 

@@ -94,7 +94,7 @@ MESHES = Path(__file__).parents[2] / "meshes"
 CALLS = {
     "fit": f"{MESHES}/sphere_r20.stl --shape sphere --unit mm",
     "markers": f"{MESHES}/leg_swing.mot --model {MESHES}/leg.osim",
-    "elbow simulate": "--motion sine",
+    "elbow simulate": "--trials 1 --seconds 2",
     "mat": f"{MESHES}/mat_thigh_16x8/frames.csv --layout {MESHES}/mat_thigh_16x8/layout.toml --unit mm "
     f"--surface {MESHES}/thigh.stl --landmarks {MESHES}/mat_thigh_16x8/landmarks.csv",
     "area": f"{MESHES}/sphere_r20.stl {MESHES}/plate_80x80x12.stl --unit mm --sweep turn=0:2:1 --axis 0,30,0,1,0,0 "
