@@ -45,6 +45,8 @@ from geocontact.data.errors import InputError
 from geocontact.io.documents import AnyValue, Document, Holds, Names, Rows, Text, Value, Values, checked, refusal
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
+from geocontact.study.cluster import ClusterSettings
+from geocontact.study.limits import LimitSettings
 
 LARGEST = 4_000_000
 """Bytes of a description."""
@@ -167,6 +169,10 @@ class StudyFile(Document):
         What the page and the statistics are about.
     surface
         Needs `analysis = "area"` and `save_map = true` in `[options]`.
+    limits
+        What each trial may take.
+    cluster
+        Jobs that evaluate the trials, with `--scheduler slurm`, `pbs`, `lsf` or `sge`.
     """
 
     analysis: Annotated[Text, Field(examples=['"area"'])]
@@ -180,6 +186,8 @@ class StudyFile(Document):
     leave_out: Annotated[tuple[dict[str, AnyValue], ...], Rows] = ()
     summary: SummarySettings = SummarySettings()
     surface: SurfaceSettings | None = None
+    limits: LimitSettings = LimitSettings()
+    cluster: ClusterSettings | None = None
     _path: Path = PrivateAttr()
 
     def model_post_init(self, context: Any) -> None:

@@ -43,8 +43,10 @@ from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
 from geocontact.study.address import Digests, address_of, options_of
+from geocontact.study.cluster import Jobs
 from geocontact.study.curves import STEPS, StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
+from geocontact.study.limits import Limits, LimitSettings, bytes_of
 from geocontact.study.options import CohortOptions
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.store import RESULTS, Store
@@ -383,10 +385,12 @@ def _plan(planned: PlannedStudy, store: Store, o: CohortOptions) -> list[_Planne
 
 def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: CohortOptions) -> list[TrialOutcome]:
     """What became of each trial of the plan; only what is missing is evaluated."""
+    limits = limits_of(planned.file.limits, o)
+    jobs = _jobs(planned.file, limits, store, o)
     run_id, sources = secrets.token_hex(8), source_digest.digest()
     missing = {one.address: one.trial for one in plan if one.known is None}
     tasks = [
-        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id, o.limit)
+        TrialTask(planned.file.analysis, trial.options, planned.file.home, store, address, sources, run_id, limits)
         for address, trial in missing.items()
     ]
     alike = len({frozenset(one.trial.options) for one in plan}) == 1
@@ -394,7 +398,7 @@ def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: Coh
     for one in known[:1]:
         require_summary(planned.file, one, store, alike=alike)
     became: dict[str, TrialOutcome] = {}
-    with closing(_outcomes(tasks, o)) as ended:
+    with closing(_outcomes(tasks, o, limits, jobs)) as ended:
         for address, outcome in ended:
             became[address] = outcome
             if outcome.state == DONE and not known:
@@ -403,10 +407,31 @@ def _evaluated(planned: PlannedStudy, plan: list[_Planned], store: Store, o: Coh
     return [one.known or became[one.address] for one in plan]
 
 
-def _outcomes(tasks: list[TrialTask], o: CohortOptions) -> Generator[tuple[str, TrialOutcome]]:
+def limits_of(settings: LimitSettings, o: CohortOptions) -> Limits:
+    """What each trial may take: by the call, else by the description."""
+    memory = o.memory or settings.memory
+    return Limits(
+        settings.time if o.limit is None else o.limit,
+        None if memory is None else bytes_of(memory),
+        o.cores or settings.cores,
+    )
+
+
+def _jobs(study: StudyFile, limits: Limits, store: Store, o: CohortOptions) -> Jobs | None:
+    """The jobs that are asked for; InputError where the description has none."""
+    if not o.queueing:
+        return None
+    if study.cluster is None:
+        raise InputError(study.path, "[cluster]", f"is missing, for {o.scheduler}", "add it: [cluster] jobs = 10")
+    return Jobs(o.scheduler, study.cluster, limits, study.path, store.folder.parent)
+
+
+def _outcomes(
+    tasks: list[TrialTask], o: CohortOptions, limits: Limits, jobs: Jobs | None
+) -> Generator[tuple[str, TrialOutcome]]:
     if not tasks:
         return
-    with workers_of(o) as workers, listener().progress("trials", len(tasks)) as step:
+    with workers_of(o, limits, jobs) as workers, listener().progress("trials", len(tasks)) as step:
         started, spent = time.perf_counter(), 0.0
         for task, outcome in outcomes(workers, tasks):
             if outcome.state == STOPPED:

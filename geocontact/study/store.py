@@ -7,7 +7,6 @@ import os
 import platform
 import shutil
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -148,13 +147,20 @@ class Store:
 
     def write_log(self, address: str, text: str) -> str:
         """Keep the whole traceback of a trial that failed, until it is evaluated again; its file, from the study's."""
-        file = self.folder / f"{address}.log"
-        file.write_text(text, encoding="utf-8")
-        return f"{self.folder.name}/{file.name}"
+        self.log(address).write_text(text, encoding="utf-8")
+        return self.log_named(address)
+
+    def log(self, address: str) -> Path:
+        """File that says where a trial failed, or was ended."""
+        return self.folder / f"{address}.log"
+
+    def log_named(self, address: str) -> str:
+        """The same, from the study's folder."""
+        return f"{self.folder.name}/{self.log(address).name}"
 
     def forget(self, address: str) -> None:
         """Remove results that are out of date; what says that they are whole goes first."""
-        (self.folder / f"{address}.log").unlink(missing_ok=True)
+        self.log(address).unlink(missing_ok=True)
         (self.place(address) / TOLD).unlink(missing_ok=True)
         shutil.rmtree(self.place(address), ignore_errors=True)
 
@@ -187,13 +193,6 @@ class Store:
             return (self.folder / WORK / f"{run}-{address}").stat().st_size
         except OSError:
             return 0
-
-    def since_start(self, run: str, address: str) -> float:
-        """Seconds since a worker last began a trial in a run and did not end it, 0 where none did."""
-        try:
-            return time.time() - (self.folder / WORK / f"{run}-{address}").stat().st_mtime
-        except OSError:
-            return 0.0
 
     def starting(self, run: str, address: str) -> Callable[[], None]:
         """Note that a worker begins a trial; the function takes the note away when it has ended it."""
