@@ -14,6 +14,8 @@ import subprocess
 import sys
 import time
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -29,6 +31,8 @@ WALLTIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
 ANSWERS = 30.0  # s; for the queue to say what is in it
 LOGS = "jobs"
 """Sub-folder for what jobs print."""
+KEYS = ".dask-jobqueue.worker."
+"""How the names of certificates begin that dask-jobqueue writes there for the time of the run."""
 PATH = re.compile(r"[\w.@:+/-]+")
 """Paths that every system's directives take as they are."""
 LOST = 20.0  # s; after which a job that was there and is gone is submitted anew
@@ -51,6 +55,9 @@ Name = Annotated[Word, AfterValidator(_plain), Holds("name")]
 
 class ClusterSettings(Document):
     """Jobs of `--scheduler slurm`, `pbs`, `lsf` and `sge`.
+
+    SGE has no words of its own for memory and several cores: those of the site go into `resource-spec` and
+    `job-extra-directives` of Dask's `jobqueue.yaml`.
 
     Parameters
     ----------
@@ -154,15 +161,13 @@ def job_options(system: str, asked: ClusterSettings, limits: Limits, size: JobSi
             f"export {threads}",
             f"export {closed}",
         ],
-        "worker_extra_args": ["--no-dashboard"],
+        "worker_extra_args": ["--nthreads", "1", "--no-dashboard"],  # the last one counts
         "scheduler_options": {"dashboard": False},
         "silence_logs": "critical",
     }
     if system == "lsf":  # minutes are its smallest unit
         minutes = -(-asked.seconds // 60)
         found["walltime"] = f"{minutes // 60:02d}:{minutes % 60:02d}"
-    if system == "sge" and dask.config.get("jobqueue.sge.resource-spec", None) is None:
-        found["resource_spec"] = f"h_vmem={size.memory // size.processes}"
     return {name: value for name, value in found.items() if value is not None}
 
 
@@ -182,35 +187,47 @@ class Jobs:
         self.missing = 1
         self.refused = ""
 
-    def start(self) -> Any:
-        """A cluster of dask-jobqueue."""
+    @contextmanager
+    def started(self) -> Iterator[Any]:
+        """A cluster of dask-jobqueue, whose jobs are cancelled with the block."""
         try:
             import dask_jobqueue
         except ImportError as error:
             what = f"needs {error.name}, which is not installed"
             raise InputError("", "`scheduler`", what, "pip install 'geocontact[cluster]'") from error
-        from distributed.security import Security
-
         for program in (self._system.submits, self._system.lists[0]):
             if shutil.which(program) is None:
                 what = f"{program} is not on this machine"
                 raise InputError("", "`scheduler`", what, "start the study where jobs are submitted")
+        made = self._made(getattr(dask_jobqueue, self._system.cluster))
+        try:
+            made.adapt(Adaptive=_kept(self), minimum=0, interval="2s", wait_count=3)
+            with made:
+                yield made
+        finally:
+            for name in ("ca_file", "cert", "key"):  # dask-jobqueue keeps these files as long as the object
+                file = getattr(made, f"_job_{name}", None)
+                if file is not None:
+                    file.close()
+
+    def _made(self, kind: Any) -> Any:
+        from distributed.security import Security
+
         logs = self._folder / LOGS
         if not PATH.fullmatch(str(logs)):
             raise InputError(logs, "", "is a path that jobs cannot be given", "choose an `out` of plain letters")
         logs.mkdir(exist_ok=True)
-        kind = getattr(dask_jobqueue, self._system.cluster)
+        for left in logs.glob(f"{KEYS}*"):  # of a study that was killed
+            left.unlink()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of dask-jobqueue, on its own settings
-            made = kind(
+            return kind(
                 job_cls=_noting(self, kind.job_cls),
                 security=Security.temporary(),  # type: ignore[no-untyped-call]
                 protocol="tls://",
-                shared_temp_directory=str(self._folder / LOGS),
+                shared_temp_directory=str(logs),
                 **self._options,
             )
-        made.adapt(Adaptive=_kept(self), minimum=0, interval="2s", wait_count=3)
-        return made
 
     @property
     def several(self) -> bool:

@@ -61,14 +61,14 @@ class Workers:
     def start(self) -> None:
         """Connect to the scheduler, start processes of this machine, or submit jobs."""
         if self._o.local:
-            self._cluster = _started(self._o, self._distributed, self._limits)
+            self._cluster = self._held.enter_context(_started(self._o, self._distributed, self._limits))
         elif self._jobs is not None:
-            self._cluster = self._jobs.start()
+            self._cluster = self._held.enter_context(self._jobs.started())
         if self._cluster is None:
             found = _existing(self._o, self._distributed)
         else:
-            cluster = self._held.enter_context(self._cluster)
-            found = self._distributed.Client(cluster, set_as_default=False, security=cluster.security)
+            security = self._cluster.security
+            found = self._distributed.Client(self._cluster, set_as_default=False, security=security)
         self.client = self._held.enter_context(found)
         self._seen = time.monotonic()
 

@@ -118,12 +118,25 @@ particles = "a.particles"
 unit = "mm"
 body = "fixed"
 at = [0, 50, 100]
+[limits]
+time = { value = 600, unit = "s" }
+memory = "4GB"
+cores = 1
+[cluster]
+jobs = 10
+cores = 4
+memory = "32GB"
+walltime = "04:00:00"
+queue = "short"
+account = "knees"
+interface = "ib0"
 """,
         {
             r"trials \d+ (subject|walk)": FREE,
             r"leave_out \d+ \w+": FREE,
             r"(vary|sweep) \w+ \d+": FREE,
             "summary where .*": FREE,
+            "cluster (queue|account|interface)": ("number",),
             r"(options|trials \d+ options) \w+": (*FREE, "list", "table", "date"),
             r"options motion": (*FREE, "list"),
         },

@@ -82,17 +82,6 @@ def test_workers_that_end_at_once_do_not_keep_a_study_waiting(tmp_path: Path, mo
     assert time.monotonic() - started < 240.0
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="there a thread ends the process, which such code holds up")
-def test_a_trial_that_takes_too_long_is_set_aside(tmp_path: Path) -> None:
-    """A minute in compiled code that lets no other thread run; the others are done."""
-    out = tmp_path / "out"
-    file = study(tmp_path, {"A": "1", "B": "2 holds", "C": "3"})
-    done = call("cohort", file, "--run-simulator", "--workers", "1", "--limit", "4", "--out", out, folder=out)
-    assert list(done.table("trials.csv")["state"]) == ["done", "set aside", "done"], done.err
-    assert "B: took more than 4 s, and then more than 8 s" in done.err
-
-
 class Lost:
     """A client whose workers are all gone, and which gives out tasks that never end."""
 
