@@ -2,7 +2,8 @@
 
 Synthetic inputs of four sizes for each command; CPU seconds and peak memory of a process of its own, on one thread,
 kernels compiled before. A slope is that of a straight line through the logarithms of the larger three sizes, after
-what the smallest takes has been subtracted: 1 where each further row costs the same. Writes results/growth.json.
+what the smallest takes has been subtracted: 1 where each further row costs the same. Writes results/growth.json,
+in which commands that were not run stay as they were.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from benchmarks.one_core import THREADS
 
 ROOT = Path(__file__).resolve().parents[2]
 MESHES = ROOT / "meshes"
-PAGES = 2e6  # bytes; no page may be larger
+KEPT = ROOT / "benchmarks" / "results" / "growth.json"
 CHUNK = 10_000  # rows that are made at a time
 
 
@@ -205,8 +206,10 @@ def main() -> None:
         for n in (size for size in COMMANDS[command][1] if size <= given.largest):
             runs.append(measured(command, n, given.folder.resolve() / f"{command}_{n}"))
             print(json.dumps(asdict(runs[-1])), flush=True)
-    if given.only == list(COMMANDS) and given.largest == sys.maxsize:
-        print(write_results("growth", {"pages_mb": PAGES / 1e6}, table(runs), {"numpy", "pandas", "scipy", "numba"}))
+    before = json.loads(KEPT.read_text(encoding="utf-8"))["figures"] if KEPT.exists() else []
+    found = {each["command"]: each for each in [*before, *table(runs)]}
+    ordered = [found[command] for command in COMMANDS if command in found]
+    print(write_results("growth", {"largest": given.largest}, ordered, {"numpy", "pandas", "scipy", "numba"}))
 
 
 if __name__ == "__main__":

@@ -119,7 +119,7 @@ def test_a_trial_has_the_cores_that_it_may_take(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr(trial_run, "execute", execute)
     assert "workers" in job_named("area").options.__dataclass_fields__
     (tmp_path / "a.stl").touch()
-    options = {"moving": "a.stl", "fixed": "a.stl", "unit": "mm", "sweep": "0"}
+    options = {"moving": "a.stl", "fixed": "a.stl", "unit": "mm", "sweep": "flexion=0:10:10"}
     for cores, more in ((1, {}), (2, {}), (2, {"workers": 3})):
         task = trial(tmp_path, Limits(cores=cores))
         found = run_trial(replace(task, analysis="area", options={**options, **more}))
