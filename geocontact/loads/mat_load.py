@@ -238,7 +238,8 @@ def wrench_covariance(
     middle = placed.middle
     origin = wrench.origin[0]
     own = np.concatenate([placed.force, placed.moment - np.cross(origin, placed.force)], axis=1)
-    total = np.einsum("tn,ni,nj->tij", (errors.cell * pressure) ** 2, own, own, optimize=True)
+    squares = ((errors.cell * pressure[some]) ** 2 for some in blocks(len(pressure), pressure.shape[1]))
+    total = np.concatenate([np.einsum("tn,ni,nj->tij", part, own, own, optimize=True) for part in squares])
     whole = np.concatenate([wrench.force, wrench.moment], axis=1)
     total += errors.gain**2 * whole[:, :, None] * whole[:, None, :]
     about = wrench.moved_to(middle).moment

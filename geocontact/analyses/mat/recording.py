@@ -17,6 +17,7 @@ from geocontact.analyses.frame.collector import add_input, judge, note, reserve,
 from geocontact.analyses.mat.goodness import goodness_of_cells
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import blocks
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.landmarks import poses_at
@@ -330,7 +331,8 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
 def _reserve_negative(frames: PressureFrames) -> None:
     """Noise about zero sums to little; an offset that was taken off and was none does not."""
     pressure = _working(frames, 0.0)
-    below = np.tensordot(np.minimum(pressure, 0.0), frames.cell_area, 2)
+    parts = blocks(len(pressure), frames.valid.size)
+    below = np.concatenate([np.tensordot(np.minimum(pressure[some], 0.0), frames.cell_area, 2) for some in parts])
     lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
     note("below_zero", {"lowest_Pa": lowest, "largest_force_N": -least})
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
