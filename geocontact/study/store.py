@@ -28,6 +28,7 @@ TOLD = "trial.json"
 """File in the folder of a trial that says what is in it."""
 WORK = ".work"
 """Sub-folder of what is being written."""
+ANEW = "remove that folder: the trial is evaluated anew"
 MOST_ENDED = 3
 """So many workers may end while they are at a trial, before it is set aside."""
 
@@ -110,14 +111,22 @@ class Store:
     def told(self, address: str) -> dict[str, Any]:
         """What a trial says of itself: its tables, sentences and reservations.
 
-        InputError where the name of a table leads out of the trial's folder: results may come from others.
+        InputError where it is none, or a table's name leads out of the trial's folder: results may come from others.
         """
         file = self.place(address) / TOLD
-        found: dict[str, Any] = read_json(file)
+        try:
+            found: dict[str, Any] = read_json(file)
+            whole = all(isinstance(each, str) for each in [*found["tables"], *found.get("warnings", ())])
+        except InputError:
+            raise
+        except (ValueError, RecursionError, KeyError, TypeError, AttributeError):
+            whole = False
+        if not whole:
+            raise InputError(file, "", "does not say what a trial has", ANEW)
         for name in found["tables"]:
             if not is_inside(file.parent, f"{name}.parquet"):
                 what = f"the table {str(name)[:80]!r} is not in its folder"
-                raise InputError(file, "tables", what, "remove that folder: the trial is evaluated anew")
+                raise InputError(file, "tables", what, ANEW)
         return found
 
     def holds(self, address: str, home: Path, digests: Digests) -> bool:
@@ -127,12 +136,10 @@ class Store:
             return False
         try:
             inputs = read_json(place / RUN)["inputs"]
-            return all(
-                digests.of(home / each["file"]) == each["sha256"]
-                for each in inputs
-                if "sha256" in each and "file" in each
-            )
-        except (OSError, ValueError, KeyError, TypeError):
+            named = {home / each["file"]: each["sha256"] for each in inputs if "sha256" in each and "file" in each}
+            # a pipe or a device, of which a stranger's results may say that they were made, would be waited for
+            return all(file.is_file() and digests.of(file) == known for file, known in named.items())
+        except (OSError, ValueError, KeyError, TypeError, RecursionError, InputError):
             return False
 
     def keep(self, draft: Path, address: str) -> None:
