@@ -56,25 +56,22 @@ Name = Annotated[Word, AfterValidator(_plain), Holds("name")]
 class ClusterSettings(Document):
     """Jobs of `--scheduler slurm`, `pbs`, `lsf` and `sge`.
 
-    SGE has no words of its own for memory and several cores: those of the site go into `resource-spec` and
-    `job-extra-directives` of Dask's `jobqueue.yaml`.
+    SGE: memory and cores go into Dask's `jobqueue.yaml`.
 
     Parameters
     ----------
     jobs
-        Most jobs at a time; fewer where fewer trials are missing.
+        Most jobs at a time.
     cores
-        Cores of each job: as many trials run in it as these are times `cores` of `[limits]`.
+        Of each job, which evaluates as many trials at a time as they have room for.
     memory
-        Memory of each job; by default twice `memory` of `[limits]` for each of its trials.
+        Of each job; by default twice that of `[limits]` for each trial.
     walltime
-        Longest that a job lasts, hours:minutes:seconds. What it has not finished then begins again in another.
+        Trials that a job has not finished begin again in another.
     queue
-        Queue, or partition of SLURM.
+        Queue or partition.
     account
-        Account, or project, that pays.
-    interface
-        Network interface by which the machines talk, such as ib0.
+        Account or project.
     """
 
     jobs: Annotated[Count, Field(examples=["10"])]
@@ -83,7 +80,6 @@ class ClusterSettings(Document):
     walltime: Annotated[str, AfterValidator(_walltime), Holds("hours:minutes:seconds")] = "04:00:00"
     queue: Name | None = None
     account: Name | None = None
-    interface: Name | None = None
 
     @property
     def seconds(self) -> int:
@@ -151,7 +147,6 @@ def job_options(system: str, asked: ClusterSettings, limits: Limits, size: JobSi
         "memory": f"{size.memory}B",
         "queue": asked.queue,
         own.account: asked.account,
-        "interface": asked.interface,
         "walltime": asked.walltime,
         "python": shlex.quote(sys.executable),
         "job_name": "geocontact",

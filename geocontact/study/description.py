@@ -172,7 +172,7 @@ class StudyFile(Document):
     limits
         What each trial may take.
     cluster
-        Jobs that evaluate the trials, with `--scheduler slurm`, `pbs`, `lsf` or `sge`.
+        Jobs of a queueing system.
     """
 
     analysis: Annotated[Text, Field(examples=['"area"'])]

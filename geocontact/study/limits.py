@@ -62,16 +62,16 @@ Count = Annotated[int, Field(ge=1)]
 
 
 class LimitSettings(Document):
-    """What each trial may take; options of the call go before.
+    """What each trial may take.
 
     Parameters
     ----------
     time
-        Longest that a trial may take.
+        Longest time.
     memory
-        Most that the process of a trial may hold, the program itself (0.3 GB) among it: 4GB.
+        Most memory of its process, 0.3 GB of the program among it.
     cores
-        Cores of each trial.
+        Cores.
     """
 
     time: Annotated[float, WithUnit(TRIAL_LIMIT)] | None = None

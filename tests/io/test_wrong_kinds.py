@@ -129,14 +129,13 @@ memory = "32GB"
 walltime = "04:00:00"
 queue = "short"
 account = "knees"
-interface = "ib0"
 """,
         {
             r"trials \d+ (subject|walk)": FREE,
             r"leave_out \d+ \w+": FREE,
             r"(vary|sweep) \w+ \d+": FREE,
             "summary where .*": FREE,
-            "cluster (queue|account|interface)": ("number",),
+            "cluster (queue|account)": ("number",),
             r"(options|trials \d+ options) \w+": (*FREE, "list", "table", "date"),
             r"options motion": (*FREE, "list"),
         },

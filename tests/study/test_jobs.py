@@ -231,7 +231,7 @@ def test_memory_of_a_job_is_twice_that_of_its_trials_where_it_is_not_given() -> 
     assert (size.processes, size.memory) == (3, 6 * GB)
 
 
-@pytest.mark.parametrize("key", ["queue", "account", "interface", "walltime"])
+@pytest.mark.parametrize("key", ["queue", "account", "walltime"])
 @pytest.mark.parametrize("text", ["a\nrm -rf ~", "$(rm)", "a; rm", "a b", "`rm`", '"', ""])
 def test_no_text_of_a_description_reaches_a_shell(tmp_path: Path, key: str, text: str) -> None:
     shown = text.replace("\n", "\\n").replace('"', '\\"')
