@@ -79,7 +79,7 @@ def cop(folder: Path, n: int) -> list[str]:
 
 
 def mat(folder: Path, n: int) -> list[str]:
-    """The sample of the thigh, 16 x 8 cells at 50 Hz, over and over, with 0.05 kPa of noise (seed 58) in ten of its turns."""
+    """The sample of the thigh, 16 x 8 cells at 50 Hz, over and over; 0.05 kPa of noise (seed 58) in ten turns."""
     sample = MESHES / "mat_thigh_16x8"
     lines = (sample / "frames.csv").read_text(encoding="utf-8").splitlines()
     head = next(k for k, line in enumerate(lines) if line.startswith("time"))
