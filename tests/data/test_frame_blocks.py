@@ -38,7 +38,7 @@ def test_force_and_filter_of_parts_are_those_of_the_whole() -> None:
     whole = sosfiltfilt(butter(3, 6.0, fs=100.0, output="sos"), PRESSURE, axis=0, padlen=50)
     np.testing.assert_array_equal(as_opensim(PRESSURE, 0.01, 6.0), whole)
     with pytest.raises(ValueError, match="must be finite"):
-        replace(frames, pressure=np.where(PRESSURE == PRESSURE[-1, -1, -1], np.nan, PRESSURE))
+        replace(frames, pressure=np.where(PRESSURE[-1, -1, -1] == PRESSURE, np.nan, PRESSURE))
 
 
 def test_a_table_of_parts_is_that_of_the_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
