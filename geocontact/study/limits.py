@@ -137,7 +137,7 @@ def _remove_empty(log: Path) -> None:
 @contextmanager
 def _watched(most: int, log: TextIO) -> Iterator[None]:
     """A thread that ends this process, and those that it started, where they hold more than `most` bytes."""
-    import psutil  # of the extra, as is what calls this
+    import psutil  # type: ignore[import-untyped]  # of the extra, as is what calls this
 
     over, own = threading.Event(), psutil.Process()
 

@@ -182,7 +182,7 @@ def _started(o: CohortOptions, distributed: Any, limits: Limits, left: int = STA
 
 def _fitting(limits: Limits) -> int:
     """Processes of this machine: as many as its cores, and where trials have a limit its memory, have room for."""
-    import psutil
+    import psutil  # type: ignore[import-untyped]
 
     count = cores() // limits.cores
     if limits.memory is not None:
