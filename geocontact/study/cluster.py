@@ -1,4 +1,4 @@
-"""Jobs of a queueing system as workers of a study: `--scheduler slurm`, `pbs`, `lsf` or `sge`, through dask-jobqueue.
+"""Jobs of a queueing system as workers of a study: `scheduler` slurm, pbs, lsf or sge, through dask-jobqueue.
 
 The study's process is the scheduler, on the machine where it is started; jobs come to it by TLS, with certificates of
 this run in a file that only the user can read. What a site needs besides (further directives, modules) is Dask's own
@@ -24,7 +24,7 @@ from pydantic import AfterValidator, Field
 
 from geocontact.data.errors import InputError
 from geocontact.io.documents import Document, Holds, Word, refusal
-from geocontact.study.limits import TRIES, Count, Limits, Size, bytes_of, size_text
+from geocontact.study.limits import TRIES, Count, Size, TrialLimits, bytes_of, size_text
 
 WORD = re.compile(r"[\w.@:+-]{1,80}")
 WALLTIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
@@ -35,6 +35,7 @@ KEYS = ".dask-jobqueue.worker."
 """How the names of certificates begin that dask-jobqueue writes there for the time of the run."""
 PATH = re.compile(r"[\w.@:+/-]+")
 """Paths that every system's directives take as they are."""
+LONG = "--"  # so begin options of `dask worker`
 LOST = 20.0  # s; after which a job that was there and is gone is submitted anew
 
 
@@ -54,7 +55,7 @@ Name = Annotated[Word, AfterValidator(_plain), Holds("name")]
 
 
 class ClusterSettings(Document):
-    """Jobs of `--scheduler slurm`, `pbs`, `lsf` and `sge`.
+    """Jobs of `scheduler` slurm, pbs, lsf and sge.
 
     SGE: memory and cores go into Dask's `jobqueue.yaml`.
 
@@ -89,7 +90,7 @@ class ClusterSettings(Document):
 
 
 @dataclass(frozen=True)
-class System:
+class QueueingSystem:
     """A queueing system: class of dask-jobqueue, commands that submit and list jobs, the keyword for who pays."""
 
     cluster: str
@@ -99,10 +100,10 @@ class System:
 
 
 SYSTEMS = {
-    "slurm": System("SLURMCluster", "sbatch", ("squeue", "-h", "-o", "%i")),
-    "pbs": System("PBSCluster", "qsub", ("qstat",)),
-    "lsf": System("LSFCluster", "bsub", ("bjobs",), "project"),
-    "sge": System("SGECluster", "qsub", ("qstat",), "project"),
+    "slurm": QueueingSystem("SLURMCluster", "sbatch", ("squeue", "-h", "-o", "%i")),
+    "pbs": QueueingSystem("PBSCluster", "qsub", ("qstat",)),
+    "lsf": QueueingSystem("LSFCluster", "bsub", ("bjobs",), "project"),
+    "sge": QueueingSystem("SGECluster", "qsub", ("qstat",), "project"),
 }
 
 
@@ -114,8 +115,8 @@ class JobSize:
     memory: int
 
 
-def job_size(asked: ClusterSettings, limits: Limits, file: Path) -> JobSize:
-    """Of a study's jobs; InputError where its limits do not fit into them."""
+def job_size(asked: ClusterSettings, limits: TrialLimits, file: Path) -> JobSize:
+    """What a study's jobs have; InputError where its limits do not fit into them."""
     place = "[cluster]"
     processes = asked.cores // limits.cores
     if processes < 1:
@@ -134,7 +135,9 @@ def job_size(asked: ClusterSettings, limits: Limits, file: Path) -> JobSize:
     return JobSize(processes, memory)
 
 
-def job_options(system: str, asked: ClusterSettings, limits: Limits, size: JobSize, folder: Path) -> dict[str, Any]:
+def job_options(
+    system: str, asked: ClusterSettings, limits: TrialLimits, size: JobSize, folder: Path
+) -> dict[str, Any]:
     """Keywords of the class of dask-jobqueue; what they print goes to `folder`/jobs."""
     import dask
 
@@ -156,7 +159,7 @@ def job_options(system: str, asked: ClusterSettings, limits: Limits, size: JobSi
             f"export {threads}",
             f"export {closed}",
         ],
-        "worker_extra_args": ["--nthreads", "1", "--no-dashboard"],  # the last one counts
+        "worker_extra_args": [f"{LONG}nthreads", "1", f"{LONG}no-dashboard"],  # the last one counts
         "scheduler_options": {"dashboard": False},
         "silence_logs": "critical",
     }
@@ -175,7 +178,7 @@ class Jobs:
     `missing` is the number of trials without results; `refused` what the queue said where it did not take a job.
     """
 
-    def __init__(self, system: str, asked: ClusterSettings, limits: Limits, file: Path, folder: Path) -> None:
+    def __init__(self, system: str, asked: ClusterSettings, limits: TrialLimits, file: Path, folder: Path) -> None:
         self._system, self._asked, self._limits, self._folder = SYSTEMS[system], asked, limits, folder
         self._size = job_size(asked, limits, file)
         self._options = job_options(system, asked, limits, self._size, folder)

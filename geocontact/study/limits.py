@@ -80,7 +80,7 @@ class LimitSettings(Document):
 
 
 @dataclass(frozen=True)
-class Limits:
+class TrialLimits:
     """Seconds and bytes that a trial may take, None without a limit, and its cores."""
 
     time: float | None = None
@@ -97,11 +97,11 @@ class Limits:
         return ""
 
 
-NO_LIMITS = Limits()
+NO_LIMITS = TrialLimits()
 
 
-def widest(several: Collection[Limits]) -> Limits:
-    """Limits within which each of them is."""
+def widest(several: Collection[TrialLimits]) -> TrialLimits:
+    """TrialLimits within which each of them is."""
 
     def most(numbers: list[float | None]) -> float | None:
         known = [each for each in numbers if each is not None]
@@ -109,7 +109,7 @@ def widest(several: Collection[Limits]) -> Limits:
 
     memory = most([one.memory for one in several])
     cores = max((one.cores for one in several), default=1)
-    return Limits(most([one.time for one in several]), None if memory is None else int(memory), cores)
+    return TrialLimits(most([one.time for one in several]), None if memory is None else int(memory), cores)
 
 
 def ended(log: Path) -> tuple[int, int]:
@@ -122,7 +122,7 @@ def ended(log: Path) -> tuple[int, int]:
 
 
 @contextmanager
-def kept_within(limits: Limits, log: Path) -> Iterator[None]:
+def kept_within(limits: TrialLimits, log: Path) -> Iterator[None]:
     """End this process where the block takes more than it may, after the log says where it was."""
     if limits.time is None and limits.memory is None:
         yield

@@ -30,7 +30,7 @@ from geocontact.data.errors import InputError
 from geocontact.study.address import Digests, address_of, options_of
 from geocontact.study.cluster import Jobs, job_size
 from geocontact.study.description import StudyFile
-from geocontact.study.limits import Limits, LimitSettings, bytes_of, widest
+from geocontact.study.limits import LimitSettings, TrialLimits, bytes_of, widest
 from geocontact.study.options import CohortOptions
 from geocontact.study.steps import StepRun, with_files
 from geocontact.study.store import Store
@@ -212,7 +212,7 @@ class StudyPlan:
         return task, programs
 
     @cached_property
-    def _limits(self) -> dict[str, Limits]:
+    def _limits(self) -> dict[str, TrialLimits]:
         steps = dict.fromkeys(one.run.step for one in self.evaluations)
         return {each: limits_of(self.study.limits_of(each), self._o) for each in steps}
 
@@ -278,17 +278,17 @@ class StudyPlan:
             note("one_by_one", {"seconds": round(spent, 3)})
 
 
-def limits_of(settings: LimitSettings, o: CohortOptions) -> Limits:
+def limits_of(settings: LimitSettings, o: CohortOptions) -> TrialLimits:
     """What each trial may take: by the call, else by the description."""
     memory = o.memory or settings.memory
-    return Limits(
+    return TrialLimits(
         settings.time if o.limit is None else o.limit,
         None if memory is None else bytes_of(memory),
         o.cores or settings.cores,
     )
 
 
-def jobs_of(study: StudyFile, limits: Sequence[Limits], store: Store, o: CohortOptions) -> Jobs | None:
+def jobs_of(study: StudyFile, limits: Sequence[TrialLimits], store: Store, o: CohortOptions) -> Jobs | None:
     """The jobs that are asked for; InputError where the description has none, or a step does not fit into them."""
     if not o.queueing:
         return None

@@ -24,7 +24,7 @@ from geocontact.analyses.frame.result import Part
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
 from geocontact.study.address import ONE_THREAD, options_of
-from geocontact.study.limits import NO_LIMITS, Limits, kept_within
+from geocontact.study.limits import NO_LIMITS, TrialLimits, kept_within
 from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store
 
 DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set aside", "stopped"
@@ -71,7 +71,7 @@ class TrialTask:
     address: str
     sources: str
     run: str
-    limits: Limits = NO_LIMITS
+    limits: TrialLimits = NO_LIMITS
     step: str = ""
     taken: tuple[str, ...] = ()
     without: frozenset[Part] = frozenset()

@@ -20,7 +20,7 @@ from geocontact.analyses.frame.collector import listener
 from geocontact.analyses.frame.workers import cores
 from geocontact.data.errors import InputError
 from geocontact.study.cluster import THREADS, Jobs
-from geocontact.study.limits import NO_LIMITS, Limits
+from geocontact.study.limits import NO_LIMITS, TrialLimits
 from geocontact.study.options import CohortOptions
 from geocontact.study.trial_run import FAILED, SET_ASIDE, TrialOutcome, TrialTask, run_trial
 
@@ -49,7 +49,7 @@ GONE = "the scheduler is gone; finished trials stay: run it again"
 class Workers:
     """A `distributed.Client` of the workers, which are started anew where all of this machine were lost."""
 
-    def __init__(self, o: CohortOptions, distributed: Any, limits: Limits, jobs: Jobs | None = None) -> None:
+    def __init__(self, o: CohortOptions, distributed: Any, limits: TrialLimits, jobs: Jobs | None = None) -> None:
         self._o, self._distributed, self._held = o, distributed, ExitStack()
         self._limits, self._jobs = limits, jobs
         self.client: Any = None
@@ -129,7 +129,7 @@ class Workers:
 
 
 @contextmanager
-def workers_of(o: CohortOptions, limits: Limits = NO_LIMITS, jobs: Jobs | None = None) -> Iterator[Workers]:
+def workers_of(o: CohortOptions, limits: TrialLimits = NO_LIMITS, jobs: Jobs | None = None) -> Iterator[Workers]:
     """Workers of a study; they are ended with the block where they were started for it."""
     try:
         import dask
@@ -153,7 +153,7 @@ def workers_of(o: CohortOptions, limits: Limits = NO_LIMITS, jobs: Jobs | None =
             found.end()
 
 
-def _started(o: CohortOptions, distributed: Any, limits: Limits, left: int = STARTS - 1) -> Any:
+def _started(o: CohortOptions, distributed: Any, limits: TrialLimits, left: int = STARTS - 1) -> Any:
     """A cluster of this machine; started again, `left` times, where one of its processes was lost at once.
 
     A process that is started reads the script that started it: a call that stands there unguarded would start more.
@@ -181,7 +181,7 @@ def _started(o: CohortOptions, distributed: Any, limits: Limits, left: int = STA
         raise OSError(errno.ECHILD, what, "processes of the study") from error
 
 
-def _fitting(limits: Limits) -> int:
+def _fitting(limits: TrialLimits) -> int:
     """Processes of this machine: as many as its cores, and where trials have a limit its memory, have room for."""
     import psutil  # type: ignore[import-untyped]
 

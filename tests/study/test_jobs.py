@@ -19,7 +19,7 @@ from geocontact.data.errors import InputError
 from geocontact.study import workers
 from geocontact.study.cluster import SYSTEMS, ClusterSettings, Jobs, job_size
 from geocontact.study.description import read_study_file
-from geocontact.study.limits import Limits
+from geocontact.study.limits import TrialLimits
 from geocontact.study.options import CohortOptions
 from tests.cli.calls import ROOT, call
 from tests.study import slurm_host
@@ -125,7 +125,7 @@ def stand_ins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def jobs(system: str, folder: Path, limits: Limits, **more: Any) -> Jobs:
+def jobs(system: str, folder: Path, limits: TrialLimits, **more: Any) -> Jobs:
     """What a study submits."""
     settings = {"jobs": 3, "memory": "8GB", "queue": "short", "account": "knees", "walltime": "01:30:30"} | more
     return Jobs(system, ClusterSettings(**settings), limits, folder / "study.toml", folder)
@@ -146,7 +146,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="queueing systems are
 def test_a_job_asks_for_what_the_description_says(tmp_path: Path, stand_ins: Path, system: str) -> None:
     """4 cores for two trials of two cores each; the key is there for the user alone as long as the cluster is."""
     with dask.config.set({f"jobqueue.{system}.job-script-prologue": ["module load knees"]}):
-        own = jobs(system, tmp_path, Limits(None, 2 * GB, 2), cores=4)
+        own = jobs(system, tmp_path, TrialLimits(None, 2 * GB, 2), cores=4)
     with own.started() as made:
         script, names = made.job_script(), list((tmp_path / "jobs").iterdir())
         modes, address = {file.stat().st_mode & 0o777 for file in names}, made.scheduler_address
@@ -198,7 +198,7 @@ def test_a_study_waits_for_jobs_as_long_as_the_queue_lists_them(
 ) -> None:
     monkeypatch.setattr(workers, "COUNTED", -1.0)
     queue: Any = Queue(listed=listed)
-    found = workers.Workers(CohortOptions(Path("s.toml"), scheduler="slurm"), None, Limits(), queue)
+    found = workers.Workers(CohortOptions(Path("s.toml"), scheduler="slurm"), None, TrialLimits(), queue)
     found.client = Client()
     for _ in range(3):
         found._seen = time.monotonic() - workers.WORKERLESS - 1.0
@@ -214,20 +214,26 @@ def test_a_study_waits_for_jobs_as_long_as_the_queue_lists_them(
 @pytest.mark.parametrize(
     ("settings", "limits", "said"),
     [
-        ({"memory": None}, Limits(), '[cluster] memory: is missing; add it: memory = "4GB"'),
-        ({}, Limits(cores=2), "[cluster] cores: a job has 1 of the 2 cores of a trial; write 2 or more"),
-        ({}, Limits(memory=5 * GB), "8 GB are less than 1 trials may take at their second try; write 10 GB"),
-        ({}, Limits(time=3600.0), "[cluster] walltime: is shorter than the 7200 s that a trial may take at its second"),
+        ({"memory": None}, TrialLimits(), '[cluster] memory: is missing; add it: memory = "4GB"'),
+        ({}, TrialLimits(cores=2), "[cluster] cores: a job has 1 of the 2 cores of a trial; write 2 or more"),
+        ({}, TrialLimits(memory=5 * GB), "8 GB are less than 1 trials may take at their second try; write 10 GB"),
+        (
+            {},
+            TrialLimits(time=3600.0),
+            "[cluster] walltime: is shorter than the 7200 s that a trial may take at its second",
+        ),
     ],
 )
-def test_limits_that_do_not_fit_into_a_job_are_refused(settings: dict[str, Any], limits: Limits, said: str) -> None:
+def test_limits_that_do_not_fit_into_a_job_are_refused(
+    settings: dict[str, Any], limits: TrialLimits, said: str
+) -> None:
     asked = ClusterSettings(**{"jobs": 1, "memory": "8GB", "walltime": "01:00:00"} | settings)
     with pytest.raises(InputError, match=re.escape(said)):
         job_size(asked, limits, Path("study.toml"))
 
 
 def test_memory_of_a_job_is_twice_that_of_its_trials_where_it_is_not_given() -> None:
-    size = job_size(ClusterSettings(jobs=1, cores=9), Limits(memory=GB, cores=3), Path("study.toml"))
+    size = job_size(ClusterSettings(jobs=1, cores=9), TrialLimits(memory=GB, cores=3), Path("study.toml"))
     assert (size.processes, size.memory) == (3, 6 * GB)
 
 

@@ -19,7 +19,7 @@ from geocontact.analyses.catalogue import job_named
 from geocontact.data.errors import InputError
 from geocontact.study import trial_run, workers
 from geocontact.study.description import read_study_file
-from geocontact.study.limits import Limits, bytes_of, ended, is_size, size_text, widest
+from geocontact.study.limits import TrialLimits, bytes_of, ended, is_size, size_text, widest
 from geocontact.study.options import CohortOptions
 from geocontact.study.plan import StudyPlan, jobs_of, limits_of
 from geocontact.study.steps import runs_of
@@ -38,10 +38,10 @@ def ends(folder: Path, limits: str, body: str) -> tuple[int, str]:
         import ctypes, time
         from pathlib import Path
         import numpy as np
-        from geocontact.study.limits import Limits, kept_within
+        from geocontact.study.limits import TrialLimits, kept_within
         def deep():
             {body}
-        with kept_within(Limits({limits}), Path({str(log)!r})):
+        with kept_within(TrialLimits({limits}), Path({str(log)!r})):
             deep()
     """
     command = [sys.executable, "-c", textwrap.dedent(program)]
@@ -81,17 +81,19 @@ def test_the_second_try_may_take_twice_as_much(tmp_path: Path) -> None:
 
 def test_a_limit_that_was_passed_twice_is_named(tmp_path: Path) -> None:
     log = tmp_path / "a.log"
-    both = Limits(4.0, 1_500_000_000)
+    both = TrialLimits(4.0, 1_500_000_000)
     assert both.exceeded(log) == ""
     log.write_text("Timeout (0:00:04)!\nThread\nMemory (1.6 GB of 1.5 GB)!\n", encoding="utf-8")
     assert both.exceeded(log) == ""
     log.write_text("Timeout (0:00:04)!\nMemory (1.6 GB of 1.5 GB)!\nTimeout (0:00:08)!\n", encoding="utf-8")
     assert both.exceeded(log) == "took more than 4 s, and then more than 8 s"
     log.write_text("Memory (1.6 GB of 1.5 GB)!\n" * 2, encoding="utf-8")
-    assert both.exceeded(log) == "took more than 1.5 GB, and then more than 3 GB" and Limits(4.0).exceeded(log) == ""
+    assert (
+        both.exceeded(log) == "took more than 1.5 GB, and then more than 3 GB" and TrialLimits(4.0).exceeded(log) == ""
+    )
 
 
-def trial(folder: Path, limits: Limits, text: str = "1") -> TrialTask:
+def trial(folder: Path, limits: TrialLimits, text: str = "1") -> TrialTask:
     """One of the quick analysis."""
     (folder / "A.txt").write_text(text, encoding="utf-8")
     store = Store(folder / "results")
@@ -101,7 +103,7 @@ def trial(folder: Path, limits: Limits, text: str = "1") -> TrialTask:
 
 
 def test_a_trial_that_passed_a_limit_twice_is_set_aside_with_its_log(tmp_path: Path) -> None:
-    task = trial(tmp_path, Limits(4.0))
+    task = trial(tmp_path, TrialLimits(4.0))
     log = task.store.log("a")
     log.write_text("Timeout (0:00:04)!\n", encoding="utf-8")
     assert run_trial(task).state == DONE and not log.exists()
@@ -124,7 +126,7 @@ def test_a_trial_has_the_cores_that_it_may_take(tmp_path: Path, monkeypatch: pyt
     (tmp_path / "a.stl").touch()
     options = {"moving": "a.stl", "fixed": "a.stl", "unit": "mm", "sweep": "flexion=0:10:10"}
     for cores, more in ((1, {}), (2, {}), (2, {"workers": 3})):
-        task = trial(tmp_path, Limits(cores=cores))
+        task = trial(tmp_path, TrialLimits(cores=cores))
         found = run_trial(replace(task, analysis="area", options={**options, **more}))
         assert found.line == "seen"
     assert seen == [1, 2, 3]
@@ -145,9 +147,9 @@ def test_other_texts_are_no_sizes() -> None:
 def test_the_call_goes_before_the_description(tmp_path: Path) -> None:
     lines = ("[limits]", 'time = { value = 10, unit = "min" }', 'memory = "2GB"', "cores = 2")
     settings = read_study_file(study(tmp_path, {"A": "1"}, *lines)).limits
-    assert limits_of(settings, CohortOptions(Path("s.toml"))) == Limits(600.0, 2_000_000_000, 2)
+    assert limits_of(settings, CohortOptions(Path("s.toml"))) == TrialLimits(600.0, 2_000_000_000, 2)
     given = CohortOptions(Path("s.toml"), memory="1GB", limit=5.0, cores=1)
-    assert limits_of(settings, given) == Limits(5.0, 1_000_000_000, 1)
+    assert limits_of(settings, given) == TrialLimits(5.0, 1_000_000_000, 1)
 
 
 def test_a_step_has_limits_of_its_own_and_the_others_of_the_study(tmp_path: Path) -> None:
@@ -160,31 +162,34 @@ def test_a_step_has_limits_of_its_own_and_the_others_of_the_study(tmp_path: Path
     assert {one.run.step for one in plan.evaluations} == {*described.all_steps} and length_hint(plan) == 0
     plan.look()
     assert length_hint(plan) == 2, "two offsets can be evaluated at once, and what takes from them cannot"
-    assert {task.step: task.limits for task in plan} == {"offset": Limits(60.0, 3_000_000_000, 4)}
+    assert {task.step: task.limits for task in plan} == {"offset": TrialLimits(60.0, 3_000_000_000, 4)}
     found = {step: limits_of(described.limits_of(step), o) for step in described.all_steps}
     assert {step: each for step, each in found.items() if step != "offset"} == dict.fromkeys(
-        {*found} - {"offset"}, Limits(60.0)
+        {*found} - {"offset"}, TrialLimits(60.0)
     )
-    assert widest(found.values()) == Limits(60.0, None, 4), "some have no limit of memory"
-    assert widest([Limits(5.0, 10, 1), Limits(8.0, 7, 2)]) == Limits(8.0, 10, 2) and widest([]) == Limits()
+    assert widest(found.values()) == TrialLimits(60.0, None, 4), "some have no limit of memory"
+    assert (
+        widest([TrialLimits(5.0, 10, 1), TrialLimits(8.0, 7, 2)]) == TrialLimits(8.0, 10, 2)
+        and widest([]) == TrialLimits()
+    )
     given = CohortOptions(file, memory="1GB", limit=5.0, cores=1)
-    assert limits_of(described.limits_of("offset"), given) == Limits(5.0, 1_000_000_000, 1)
+    assert limits_of(described.limits_of("offset"), given) == TrialLimits(5.0, 1_000_000_000, 1)
 
 
 def test_a_step_that_does_not_fit_into_jobs_is_refused(tmp_path: Path) -> None:
     file = study(tmp_path, {"A": "1"}, "[cluster]", "jobs = 2", 'memory = "4GB"')
     described, store = read_study_file(file), Store(tmp_path / "results")
     o = CohortOptions(file, scheduler="slurm")
-    assert jobs_of(described, [Limits(), Limits(memory=2_000_000_000)], store, o) is not None
-    assert jobs_of(described, [Limits(memory=3_000_000_000)], store, replace(o, scheduler="local")) is None
+    assert jobs_of(described, [TrialLimits(), TrialLimits(memory=2_000_000_000)], store, o) is not None
+    assert jobs_of(described, [TrialLimits(memory=3_000_000_000)], store, replace(o, scheduler="local")) is None
     with pytest.raises(InputError, match=r"\[cluster\] memory: 4 GB are less than 1 trials .*; write 6 GB"):
-        jobs_of(described, [Limits(), Limits(memory=3_000_000_000)], store, o)
+        jobs_of(described, [TrialLimits(), TrialLimits(memory=3_000_000_000)], store, o)
 
 
 def test_there_are_no_more_processes_than_fit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workers, "cores", lambda: 16)
     monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(total=32_000_000_000))
-    asked = (Limits(), Limits(cores=3), Limits(memory=4 * 10**9), Limits(memory=10**12))
+    asked = (TrialLimits(), TrialLimits(cores=3), TrialLimits(memory=4 * 10**9), TrialLimits(memory=10**12))
     assert [_fitting(limits) for limits in asked] == [16, 5, 8, 1]
 
 
