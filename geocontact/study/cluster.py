@@ -251,6 +251,7 @@ class Jobs:
 
 def _noting(jobs: Jobs, base: Any) -> type:
     """A job that notes what the queue says where it is not taken: Dask says it to a log that nobody reads."""
+    from distributed.core import Status
 
     class Noting(base):  # type: ignore[misc]
         """A job."""
@@ -260,6 +261,7 @@ def _noting(jobs: Jobs, base: Any) -> type:
                 await super().start()
             except (RuntimeError, ValueError, OSError) as error:
                 jobs.refused = _said(str(error))
+                self.status = Status.failed  # else Dask, when it closes, takes it as one that is being started
                 raise
 
     return Noting
