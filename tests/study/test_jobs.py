@@ -67,13 +67,14 @@ def test_a_study_on_slurm_whose_workers_are_killed_has_the_tables_of_an_undistur
     running, disturbed = start(file, out, slurm, "--scheduler", "slurm"), []
 
     def disturb() -> None:
-        slurm_host.wait_for(lambda: len(list(out.glob("results/*/trial.json"))) > 3, 300.0)
+        slurm_host.wait_for(lambda: len(list(out.glob("results/*/trial.json"))) > 3 and len(nannies(out)) > 1, 300.0)
         job = nannies(out)[0]
+        killed = job.environ()["SLURM_JOB_ID"]
         for one in [*job.children(recursive=True), job]:
             one.kill()
         disturbed.append("killed")
         ids = slurm_host.said_by(slurm, "squeue", "-h", "-o", "%i").split()
-        slurm_host.said_by(slurm, "scancel", ids[-1])
+        slurm_host.said_by(slurm, "scancel", next(each for each in ids if each != killed))
         disturbed.append("cancelled")
 
     other = threading.Thread(target=disturb)
