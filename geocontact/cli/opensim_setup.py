@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 
 OPTION = "--setup"
 COMMANDS = "ik", "id", "scale"
@@ -35,12 +37,22 @@ def with_setup(tokens: Sequence[str]) -> list[str]:
             raise InputError("", OPTION, "is missing its file", "give OpenSim's set-up file")
         file = rest[at + 1]
         del rest[at : at + 2]
-    setup = setup_of(command, Path(file))
+    with _warnings_in_a_line():
+        setup = setup_of(command, Path(file))
     for what in setup.unheeded:
         print(f"warning: {file}: {what} is ignored", file=sys.stderr)
     typed = {token.partition("=")[0] for token in rest}
     told = [token for name, value in setup.options if f"--{name}" not in typed for token in _option(name, value)]
     return [command, str(setup.recording), *told, *rest]
+
+
+@contextmanager
+def _warnings_in_a_line() -> Iterator[None]:
+    """Warnings of a file that is read before the command, whose collector is not open yet."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", InputWarning)
+        warnings.showwarning = lambda message, *_, **__: print(f"warning: {message}", file=sys.stderr)
+        yield
 
 
 def _option(name: str, value: str) -> list[str]:

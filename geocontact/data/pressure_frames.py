@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.data.frame_blocks import blocks
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PressureFrames:
@@ -44,8 +46,8 @@ class PressureFrames:
             raise ValueError(f"{self.name}: times of the frames must increase")
         if not min(self.pitch) > 0.0 or not (self.cell_area[self.valid] > 0.0).all():
             raise ValueError(f"{self.name}: pitch and cell area must be positive")
-        seen = self.pressure[:, self.valid]
-        if not np.isfinite(seen).all():
+        parts = blocks(len(self.pressure), self.valid.size)
+        if not all(np.isfinite(self.pressure[some][:, self.valid]).all() for some in parts):
             raise ValueError(f"{self.name}: pressures of valid cells must be finite")
 
     def __repr__(self) -> str:
@@ -66,9 +68,10 @@ class PressureFrames:
     @cached_property
     def saturated(self) -> Bool[np.ndarray, "t r c"]:
         """Cells that clip: at or above the saturation level."""
-        return np.asarray(np.nan_to_num(self.pressure, nan=-np.inf) >= self.saturation)
+        return np.asarray(self.pressure >= self.saturation)
 
     @cached_property
     def force(self) -> Float[np.ndarray, " t"]:
         """Sum of pressure times cell area [N], whichever way the cells look."""
-        return np.asarray(np.nansum(self.pressure * self.cell_area, axis=(1, 2)))
+        parts = blocks(len(self.pressure), self.valid.size)
+        return np.concatenate([np.nansum(self.pressure[some] * self.cell_area, axis=(1, 2)) for some in parts])

@@ -50,11 +50,12 @@ def dead_cells(frames: PressureFrames, touched: float = TOUCHED) -> Bool[np.ndar
         return dead
     from scipy.ndimage import binary_dilation, label
 
-    pressure = np.where(frames.valid, frames.pressure, 0.0)
-    rise = pressure - pressure.min(axis=0)
+    pressure = frames.pressure if frames.valid.all() else np.where(frames.valid, frames.pressure, 0.0)
+    lowest = pressure.min(axis=0)
+    rise = pressure.max(axis=0) - lowest
     largest = float(rise.max(initial=0.0))
     high = pressure[0] >= max(touched, STUCK * largest)
-    still = frames.valid & (rise.max(axis=0) == 0.0)
+    still = frames.valid & (rise == 0.0)
     level = max(touched, PRESSED * largest)
     if _restless(pressure, frames.valid, level):
         dead |= still
@@ -65,7 +66,7 @@ def dead_cells(frames: PressureFrames, touched: float = TOUCHED) -> Bool[np.ndar
             around = binary_dilation(group, NEIGHBOURING) & frames.valid & ~group
             if group.sum() > MOST or around.sum() < AROUND:
                 continue
-            pressed = (rise[:, around] >= level).all(axis=1)
+            pressed = (pressure[:, around] - lowest[around] >= level).all(axis=1)
             quiet = (pressure[:, around] < touched).all(axis=1)
             if pressed.sum() >= TOGETHER:
                 dead |= group & _flanked(group, around)

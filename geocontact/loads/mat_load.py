@@ -19,6 +19,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.data.frame_blocks import blocks
 from geocontact.data.wrench import Wrench
 from geocontact.geometry.register.quality import PoseCovariance
 from geocontact.loads.mat_map import MatMap
@@ -133,18 +134,15 @@ def mat_load(
         Which cells count: those of a segment. All without.
     """
     use = np.ones(len(placed.area), bool) if cells is None else cells
-    pressure, area = pressure[:, use], placed.area[use]
+    pressure, area = pressure if use.all() else pressure[:, use], placed.area[use]
     if not use.any():
         raise ValueError("a segment needs at least one cell that lies on the surface")
     force = pressure @ placed.force[use]
     moment = pressure @ placed.moment[use] - np.cross(origin, force)
-    weight = pressure * area
-    pressing = weight.sum(axis=1)
-    loaded = (pressing > 0.0) & (pressing >= gate)
-    centre = _centres(placed.centre[use], np.maximum(weight, 0.0), loaded)
-    on = pressure >= touched
-    touched_area = (on * area).sum(axis=1)
-    mean = np.divide((on * weight).sum(axis=1), touched_area, out=np.zeros(len(on)), where=touched_area > 0.0)
+    parts = [
+        _part(placed.centre[use], pressure[some], area, gate, touched) for some in blocks(len(pressure), len(area))
+    ]
+    pressing, touched_area, mean, centre = (np.concatenate(each) for each in zip(*parts, strict=True))
     normal = _facing(placed.force[use], area)
     at = np.broadcast_to(np.asarray(origin, float), force.shape)
     return MatLoad(
@@ -157,6 +155,24 @@ def mat_load(
         mean,
         centre,
     )
+
+
+def _part(
+    points: Float[np.ndarray, "n 3"],
+    pressure: Float[np.ndarray, "t n"],
+    area: Float[np.ndarray, " n"],
+    gate: float,
+    touched: float,
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, "t 3"]]:
+    """Pressing, touched area, mean pressure on it, and centre, of some frames."""
+    weight = pressure * area
+    pressing = weight.sum(axis=1)
+    loaded = (pressing > 0.0) & (pressing >= gate)
+    centre = _centres(points, np.maximum(weight, 0.0), loaded)
+    on = pressure >= touched
+    touched_area = (on * area).sum(axis=1)
+    mean = np.divide((on * weight).sum(axis=1), touched_area, out=np.zeros(len(on)), where=touched_area > 0.0)
+    return pressing, touched_area, mean, centre
 
 
 def _facing(force: Float[np.ndarray, "n 3"], area: Float[np.ndarray, " n"]) -> Float[np.ndarray, " 3"]:
@@ -222,7 +238,8 @@ def wrench_covariance(
     middle = placed.middle
     origin = wrench.origin[0]
     own = np.concatenate([placed.force, placed.moment - np.cross(origin, placed.force)], axis=1)
-    total = np.einsum("tn,ni,nj->tij", (errors.cell * pressure) ** 2, own, own, optimize=True)
+    squares = ((errors.cell * pressure[some]) ** 2 for some in blocks(len(pressure), pressure.shape[1]))
+    total = np.concatenate([np.einsum("tn,ni,nj->tij", part, own, own, optimize=True) for part in squares])
     whole = np.concatenate([wrench.force, wrench.moment], axis=1)
     total += errors.gain**2 * whole[:, :, None] * whole[:, None, :]
     about = wrench.moved_to(middle).moment

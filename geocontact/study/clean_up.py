@@ -7,9 +7,8 @@ import os
 from collections.abc import Collection
 from pathlib import Path
 
-from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import read_json
-from geocontact.study.store import Store
+from geocontact.study.store import UNREADABLE, Store
 
 ASKED = "asked_for.json"
 """File beside the results: the addresses that each description asked for last, by its path from there."""
@@ -54,7 +53,7 @@ def _asked(store: Store) -> dict[str, list[str]]:
     """What is kept; nothing where that cannot be read."""
     try:
         known = read_json(store.folder / ASKED)
-    except (InputError, OSError, ValueError):
+    except UNREADABLE:
         return {}
     if not isinstance(known, dict):
         return {}

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.folder import is_inside
 from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.io.results import coordinates_of, over_time
@@ -67,8 +68,7 @@ def curves_of(
 
     With events a curve is the mean over the gait cycles of its trial, else it is over the whole span.
     """
-    asked = study.summary
-    name = asked.table or _first_over_time(done, store)
+    name = _named(study) or _first_over_time(done, store)
     if not name:
         return ()
     files = {trial.name: store.place(address) / f"{name}.parquet" for trial, address in done}
@@ -88,13 +88,21 @@ def require_summary(study: StudyFile, one: tuple[CohortTrial, str], store: Store
 
     `alike`: all trials have the same options, so that a table that this one lacks none has.
     """
-    name = study.summary.table or _first_over_time([one], store)
+    name = _named(study) or _first_over_time([one], store)
     file = store.place(one[1]) / f"{name}.parquet"
     if name and file.is_file():
         _required(study, file, name)
     elif name and alike:
         known = ", ".join(store.told(one[1])["tables"])
         raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", f"there are {known}")
+
+
+def _named(study: StudyFile) -> str:
+    """The table that `[summary]` names, "" where it names none; InputError for a path that leads elsewhere."""
+    name = study.summary.table
+    if name and not is_inside(study.home, f"{name}.parquet"):
+        raise InputError(study.path, "[summary] table", f"{name[:80]!r} is not the name of a table", "see tables")
+    return name
 
 
 def _required(study: StudyFile, file: Path, name: str) -> tuple[str, ...]:

@@ -71,6 +71,8 @@ from geocontact.io.documents import (
 )
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
+from geocontact.study.cluster import ClusterSettings
+from geocontact.study.limits import LimitSettings
 
 LARGEST = 4_000_000
 """Bytes of a description."""
@@ -179,12 +181,15 @@ class StepSettings(Document):
         Names: one evaluation for each combination of their values, `[]` for one over all; by default for each trial.
     where
         Values that its trials have; all trials by default.
+    limits
+        What each evaluation may take, where that differs from the study's.
     """
 
     analysis: Annotated[Text, Field(examples=['"ik"'])]
     options: Mapping[str, Any] = {}
     per: Names | None = None
     where: Mapping[str, Values] = {}
+    limits: LimitSettings = LimitSettings()
 
 
 class StudyFile(Document):
@@ -220,6 +225,10 @@ class StudyFile(Document):
         What the page and the statistics are about.
     surface
         Needs `analysis = "area"` and `save_map = true` in `[options]`.
+    limits
+        What each trial may take.
+    cluster
+        Jobs of a queueing system.
     """
 
     analysis: Annotated[Text, Field(examples=['"area"'])]
@@ -238,6 +247,8 @@ class StudyFile(Document):
     figures: bool = True
     summary: SummarySettings = SummarySettings()
     surface: SurfaceSettings | None = None
+    limits: LimitSettings = LimitSettings()
+    cluster: ClusterSettings | None = None
     _path: Path = PrivateAttr()
     _folder: Path | None = PrivateAttr(None)
 
@@ -276,6 +287,11 @@ class StudyFile(Document):
     def all_steps(self) -> dict[str, StepSettings]:
         """Steps by name, the analysis last."""
         return {**self.steps, self.own_name: self.own}
+
+    def limits_of(self, step: str) -> LimitSettings:
+        """What each evaluation of a step may take: what the step states, else what the study does."""
+        own = self.all_steps[step].limits
+        return self.limits.model_copy(update={name: getattr(own, name) for name in own.model_fields_set})
 
     @property
     def heading(self) -> str:

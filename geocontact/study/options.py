@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
@@ -12,9 +11,10 @@ from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import TRIAL_LIMIT
+from geocontact.study.cluster import SYSTEMS
+from geocontact.study.limits import is_size
 
 LOCAL = "local"
-SIZE = re.compile(r"[0-9]+(\.[0-9]+)? ?[kMGT]i?B")
 
 
 @dataclass(frozen=True)
@@ -62,13 +62,17 @@ class CohortOptions(Options):
         Start what the study's files name: an analysis or a model in a module of others, a program of a gap case.
         Whatever the files say, nothing is started without.
     scheduler
-        Address of a Dask scheduler, such as tcp://host:8786; local: this machine.
+        Address of a Dask scheduler, such as tcp://host:8786; slurm, pbs, lsf or sge: jobs of [cluster]; local: this
+        machine.
     workers
-        Processes on this machine; as many as there are cores by default.
+        Processes on this machine; as many as there are cores, and memory for them, by default.
     memory
-        Memory that each process on this machine may take: 4GB; its share of the machine's by default.
+        Most memory that the process of a trial may hold: 4GB. One that holds more is ended, tried once more with twice
+        that, and set aside after that.
     limit
         Longest that a trial may take: it is ended then, tried once more with twice that time, and set aside after that.
+    cores
+        Cores of each trial; 1 by default.
     """
 
     writes: ClassVar[str] = """
@@ -93,6 +97,7 @@ class CohortOptions(Options):
     scheduler: str = LOCAL
     workers: int | None = None
     memory: str | None = None
+    cores: int | None = None
     limit: Annotated[float | None, Typed("s", "finite", "600.0", "[s]", float), TRIAL_LIMIT] = None
 
     @property
@@ -100,20 +105,24 @@ class CohortOptions(Options):
         """Whether the work is done on this machine."""
         return self.scheduler == LOCAL
 
+    @property
+    def queueing(self) -> bool:
+        """Whether the work is done by jobs."""
+        return self.scheduler in SYSTEMS
+
     def refuse_impossible(self) -> None:
-        """No process, no address, what an existing cluster decides itself, and a choice without a value."""
+        """No process, no address, no size, and a choice without a value."""
         odd = next((each for each in self.only if not each.partition("=")[2]), None)
         if odd is not None:
             raise InputError("", "`only`", f"{odd!r} has no value", "write for example subject=P1")
-        if not self.local and "://" not in self.scheduler:
-            raise InputError(
-                "", "`scheduler`", f"{self.scheduler!r} is not an address", "write tcp://host:8786, or local"
-            )
-        for name in ("workers", "memory"):
-            if not self.local and getattr(self, name) is not None:
-                what = "has no effect with `scheduler`: its workers were started with theirs"
-                raise InputError("", f"`{name}`", what, "leave it out")
-        if self.memory is not None and not SIZE.fullmatch(self.memory):
+        if not self.local and not self.queueing and "://" not in self.scheduler:
+            remedy = f"write tcp://host:8786, {', '.join(SYSTEMS)}, or local"
+            raise InputError("", "`scheduler`", f"{self.scheduler!r} is not an address", remedy)
+        if not self.local and self.workers is not None:
+            remedy = "write `jobs` into [cluster]" if self.queueing else "leave it out"
+            raise InputError("", "`workers`", "has no effect with `scheduler`", remedy)
+        if self.memory is not None and not is_size(self.memory):
             raise InputError("", "`memory`", f"{self.memory!r} is not a size of memory", "write for example 4GB")
-        if self.workers is not None and self.workers < 1:
-            raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")
+        for name in ("workers", "cores"):
+            if (getattr(self, name) or 1) < 1 or getattr(self, name) == 0:
+                raise InputError("", f"`{name}`", f"{getattr(self, name)} is less than one", "give 1 or more")

@@ -28,7 +28,9 @@ from geocontact.analyses.frame.options import declared
 from geocontact.analyses.frame.result import Part
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests, address_of, options_of
+from geocontact.study.cluster import Jobs, job_size
 from geocontact.study.description import StudyFile
+from geocontact.study.limits import LimitSettings, TrialLimits, bytes_of, widest
 from geocontact.study.options import CohortOptions
 from geocontact.study.steps import StepRun, with_files
 from geocontact.study.store import Store
@@ -202,12 +204,17 @@ class StudyPlan:
             address,
             self._sources,
             self._run_id,
-            self._o.limit,
+            self._limits[one.run.step],
             one.run.step,
             taken,
             self._without,
         )
         return task, programs
+
+    @cached_property
+    def _limits(self) -> dict[str, TrialLimits]:
+        steps = dict.fromkeys(one.run.step for one in self.evaluations)
+        return {each: limits_of(self.study.limits_of(each), self._o) for each in steps}
 
     @cached_property
     def _sources(self) -> str:
@@ -225,6 +232,10 @@ class StudyPlan:
         """Tasks that can be evaluated; more of them come as others end."""
         return self
 
+    def __length_hint__(self) -> int:
+        """How many are known at present."""
+        return len(self._waiting)
+
     def __next__(self) -> TrialTask:
         """The next task; StopIteration where none is known at present."""
         if not self._waiting:
@@ -235,13 +246,15 @@ class StudyPlan:
 
     def evaluate(self, after: Callable[[Evaluation], None]) -> None:
         """Evaluate what is missing; `after` is called with each evaluation that has results, as they come."""
+        jobs = jobs_of(self.study, [*self._limits.values()], self.store, self._o)
         for one in (each for each in self.evaluations if each.state == DONE):
             is_kept(self.store.folder)
             after(one)
         missing = sum(one.outcome is None for one in self.evaluations)
         if not missing:
             return
-        with workers_of(self._o) as workers, listener().progress("trials", missing) as step:
+        limits = widest(self._limits.values())
+        with workers_of(self._o, limits, jobs) as workers, listener().progress("trials", missing) as step:
             started, spent = time.perf_counter(), 0.0
             for task, outcome in outcomes(workers, self):
                 if outcome.state == STOPPED:
@@ -263,3 +276,25 @@ class StudyPlan:
                         after(one)
             note("work", {"seconds": round(time.perf_counter() - started, 3), "workers": workers.threads()})
             note("one_by_one", {"seconds": round(spent, 3)})
+
+
+def limits_of(settings: LimitSettings, o: CohortOptions) -> TrialLimits:
+    """What each trial may take: by the call, else by the description."""
+    memory = o.memory or settings.memory
+    return TrialLimits(
+        settings.time if o.limit is None else o.limit,
+        None if memory is None else bytes_of(memory),
+        o.cores or settings.cores,
+    )
+
+
+def jobs_of(study: StudyFile, limits: Sequence[TrialLimits], store: Store, o: CohortOptions) -> Jobs | None:
+    """The jobs that are asked for; InputError where the description has none, or a step does not fit into them."""
+    if not o.queueing:
+        return None
+    if study.cluster is None:
+        raise InputError(study.path, "[cluster]", f"is missing, for {o.scheduler}", "add it: [cluster] jobs = 10")
+    most = widest(limits)
+    for each in limits:
+        job_size(study.cluster, replace(each, cores=most.cores), study.path)
+    return Jobs(o.scheduler, study.cluster, most, study.path, store.folder.parent)

@@ -8,7 +8,6 @@ import platform
 import re
 import shutil
 import sys
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -31,6 +30,9 @@ TOLD = "trial.json"
 """File in the folder of a trial that says what is in it."""
 WORK = ".work"
 """Sub-folder of what is being written."""
+ANEW = "remove that folder: the trial is evaluated anew"
+UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError)
+"""Errors where a file of results, which may come from others, does not say what it should."""
 MOST_ENDED = 3
 """So many workers may end while they are at a trial, before it is set aside."""
 
@@ -118,14 +120,22 @@ class Store:
     def told(self, address: str) -> dict[str, Any]:
         """What a trial says of itself: its tables, sentences and reservations.
 
-        InputError where the name of a table leads out of the trial's folder: results may come from others.
+        InputError where it is none, or a table's name leads out of the trial's folder: results may come from others.
         """
         file = self.place(address) / TOLD
-        found: dict[str, Any] = read_json(file)
+        try:
+            found: dict[str, Any] = read_json(file)
+            whole = all(isinstance(each, str) for each in [*found["tables"], *found.get("warnings", ())])
+        except (InputError, OSError):
+            raise
+        except UNREADABLE:
+            whole = False
+        if not whole:
+            raise InputError(file, "", "does not say what a trial has", ANEW)
         for name in found["tables"]:
             if not is_inside(file.parent, f"{name}.parquet"):
                 what = f"the table {str(name)[:80]!r} is not in its folder"
-                raise InputError(file, "tables", what, "remove that folder: the trial is evaluated anew")
+                raise InputError(file, "tables", what, ANEW)
         return found
 
     def holds(self, address: str, home: Path, digests: Digests, taken: Sequence[str] = ()) -> bool:
@@ -141,26 +151,28 @@ class Store:
             before = read_json(place / TOLD).get("from", [])
             now = dict(zip(before, taken, strict=True))
             inputs = read_json(place / RUN)["inputs"]
-            return all(
-                digests.of(home / _moved(str(each["file"]), now)) == each["sha256"]
+            named = {
+                home / _moved(str(each["file"]), now): each["sha256"]
                 for each in inputs
                 if "sha256" in each and "file" in each
-            )
-        except (OSError, ValueError, KeyError, TypeError):
+            }
+            # a pipe or a device, of which a stranger's results may say that they were made, would be waited for
+            return all(file.is_file() and digests.of(file) == known for file, known in named.items())
+        except UNREADABLE:
             return False
 
     def seconds(self, address: str) -> float | None:
         """How long the results took [s]; None where that is not known."""
         try:
             return float(read_json(self.place(address) / RUN)["seconds"])
-        except (OSError, ValueError, KeyError, TypeError):
+        except UNREADABLE:
             return None
 
     def of_step(self, name: str, most: int) -> list[str]:
         """Addresses of at most so many results of a step, whatever they were made of."""
         found = []
         for each in self.addresses():
-            with suppress(OSError, ValueError, TypeError, AttributeError):
+            with suppress(*UNREADABLE):
                 if read_json(self.place(each) / TOLD).get("step") == name:
                     found.append(each)
             if len(found) == most:
@@ -190,13 +202,20 @@ class Store:
 
     def write_log(self, address: str, text: str) -> str:
         """Keep the whole traceback of a trial that failed, until it is evaluated again; its file, from the study's."""
-        file = self.folder / f"{address}.log"
-        file.write_text(text, encoding="utf-8")
-        return f"{self.folder.name}/{file.name}"
+        self.log(address).write_text(text, encoding="utf-8")
+        return self.log_named(address)
+
+    def log(self, address: str) -> Path:
+        """File that says where a trial failed, or was ended."""
+        return self.folder / f"{address}.log"
+
+    def log_named(self, address: str) -> str:
+        """The same, from the study's folder."""
+        return f"{self.folder.name}/{self.log(address).name}"
 
     def forget(self, address: str) -> None:
         """Remove results that are out of date; what says that they are whole goes first."""
-        (self.folder / f"{address}.log").unlink(missing_ok=True)
+        self.log(address).unlink(missing_ok=True)
         (self.place(address) / TOLD).unlink(missing_ok=True)
         shutil.rmtree(self.place(address), ignore_errors=True)
 
@@ -229,13 +248,6 @@ class Store:
             return (self.folder / WORK / f"{run}-{address}").stat().st_size
         except OSError:
             return 0
-
-    def since_start(self, run: str, address: str) -> float:
-        """Seconds since a worker last began a trial in a run and did not end it, 0 where none did."""
-        try:
-            return time.time() - (self.folder / WORK / f"{run}-{address}").stat().st_mtime
-        except OSError:
-            return 0.0
 
     def starting(self, run: str, address: str) -> Callable[[], None]:
         """Note that a worker begins a trial; the function takes the note away when it has ended it."""

@@ -7,12 +7,11 @@ import json
 import os
 import secrets
 import shutil
-import signal
 import threading
 import traceback
-from collections.abc import Iterator, Mapping
-from contextlib import chdir, contextmanager
-from dataclasses import dataclass
+from collections.abc import Mapping
+from contextlib import chdir
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -24,13 +23,12 @@ from geocontact.analyses.frame.record import Listener
 from geocontact.analyses.frame.result import Part
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
-from geocontact.study.address import options_of
+from geocontact.study.address import ONE_THREAD, options_of
+from geocontact.study.limits import NO_LIMITS, TrialLimits, kept_within
 from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store
 
 DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set aside", "stopped"
 """What becomes of a trial; STOPPED concerns all: nothing can be written, or the worker has other sources."""
-TRIES_IN_TIME = 2
-"""So often a trial with a limit of time is tried, the last time for as many times the limit."""
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
 _one_at_a_time = threading.Lock()  # the working folder and what catches warnings are those of the whole process
 _sources = cache(source_digest.digest)
@@ -56,8 +54,8 @@ class TrialTask:
         Digest of the package's sources, as where the study was started.
     run
         Marks one run of the study.
-    limit
-        Longest that the trial may take [s], twice that at the second try; None without a limit.
+    limits
+        What the trial may take.
     step
         Name of its step in the study.
     taken
@@ -73,17 +71,17 @@ class TrialTask:
     address: str
     sources: str
     run: str
-    limit: float | None = None
+    limits: TrialLimits = NO_LIMITS
     step: str = ""
     taken: tuple[str, ...] = ()
     without: frozenset[Part] = frozenset()
 
     def given_up(self) -> str:
         """Why the trial is not tried again, in a line; "" where it is."""
-        starts, taken = self.store.starts(self.run, self.address), self.store.since_start(self.run, self.address)
-        if self.limit is not None and starts >= TRIES_IN_TIME and taken >= self.limit * TRIES_IN_TIME:
-            return f"took more than {self.limit:g} s, and then more than {self.limit * TRIES_IN_TIME:g} s"
-        return f"its worker was killed {MOST_ENDED} times: out of memory, or a crash" if starts >= MOST_ENDED else ""
+        if why := self.limits.exceeded(self.store.log(self.address)):
+            return f"{why} (where it was: {self.store.log_named(self.address)})"
+        killed = self.store.starts(self.run, self.address) >= MOST_ENDED
+        return f"its worker was killed {MOST_ENDED} times: out of memory, or a crash" if killed else ""
 
 
 @dataclass(frozen=True)
@@ -106,38 +104,15 @@ def run_trial(task: TrialTask) -> TrialOutcome:
         return TrialOutcome(SET_ASIDE, why)
     with _one_at_a_time:
         try:
-            tries = task.store.starts(task.run, task.address)
-            ended = task.store.starting(task.run, task.address)
-            with ended_after(None if task.limit is None else task.limit * (1 if tries == 0 else TRIES_IN_TIME)):
+            ended, log = task.store.starting(task.run, task.address), task.store.log(task.address)
+            with kept_within(task.limits, log):
                 outcome = _outcome(task)
+            if outcome.state != FAILED:
+                log.unlink(missing_ok=True)
             ended()
         except OSError as error:
             return TrialOutcome(STOPPED, str(error.strerror or error))
     return TrialOutcome(outcome.state, outcome.line, time.perf_counter() - started)
-
-
-@contextmanager
-def ended_after(seconds: float | None) -> Iterator[None]:
-    """End this process where the block takes longer, also in compiled code that keeps the interpreter to itself.
-
-    By SIGALRM, which ends a process that does not handle it; elsewhere by a thread, which such code can hold up.
-    """
-    if seconds is None:
-        yield
-    elif hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        try:
-            yield
-        finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
-    else:
-        timer = threading.Timer(seconds, os._exit, (1,))
-        timer.daemon = True
-        timer.start()
-        try:
-            yield
-        finally:
-            timer.cancel()
 
 
 def _outcome(task: TrialTask) -> TrialOutcome:
@@ -166,6 +141,8 @@ def _outcome(task: TrialTask) -> TrialOutcome:
 def _evaluate(task: TrialTask, out: Path) -> None:
     job = job_named(task.analysis)
     options = options_of(job.options, task.options)
+    if task.limits.cores > 1 and hasattr(options, ONE_THREAD) and ONE_THREAD not in task.options:
+        options = replace(options, **{ONE_THREAD: task.limits.cores})  # results are those of one core
     options.refuse_missing_files()
     call = Call(dict(task.options), Listener(), forms=TableForms(parquet=True), without=task.without)
     result, _ = execute(job, options, out, call)

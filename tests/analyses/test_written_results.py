@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned, finished, options_table
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.result import Part, Result
+from geocontact.data.errors import InputError
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES
 from geocontact.view.page.content import Page, Picture, Table, Words
@@ -82,6 +83,23 @@ def test_everything_stands_where_its_name_says(tmp_path: Path) -> None:
     pd.testing.assert_frame_equal(pd.read_csv(out / "right/forces.csv"), LINE, check_dtype=False)
     told = json.loads((out / "run.json").read_text(encoding="utf-8"))["tables"]
     assert told == {f"{side}/forces.csv": {"frame": "tray"} for side in ("left", "right")}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Elsewhere(Walks):
+    """A table whose name leads out of the folder, as one that is made of an input's text might."""
+
+    name: str
+
+    def tables(self) -> dict[str, pd.DataFrame]:
+        return {self.name: LINE}
+
+
+@pytest.mark.parametrize("name", ["../escaped", "/tmp/escaped", "a/../../escaped"])
+def test_a_name_that_leads_elsewhere_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(InputError, match="is not a name of results"):
+        Elsewhere(record=record(tmp_path), name=name).write(tmp_path / "out")
+    assert not list(tmp_path.glob("**/escaped*")) and not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(

@@ -716,8 +716,11 @@ def test_damaged_files_and_faults() -> None:
     readers = damaged["readers"].values()  # counts of each reader are in the file of results only
     assert sum(sum(counts.values()) for counts in readers) == damaged["files"]
     assert row(page, "all") == [str(each) for each in (damaged["files"], *map(damaged["outcomes"].get, words), 0)]
+    _, _, alike = (ROOT / "docs" / page).read_text(encoding="utf-8").partition("the same tables, with: ")
+    names = " ".join(alike.partition(".\n")[0].split()).split("; ")
+    assert set(names) == {name for name, found in faults.items() if found["code"] == 0}
     for name, found in faults.items():
-        assert found["right"] and row(page, name)[0] == str(found["code"])
+        assert found["right"] and (name in names or row(page, name)[0] == str(found["code"]))
 
 
 def test_the_plan_of_a_large_study() -> None:
@@ -752,12 +755,24 @@ def test_the_plan_of_a_large_study() -> None:
 def test_speed_of_a_diagnosis() -> None:
     """Of the version measured last; what was before it stands in its own file of results."""
     now = results("gap_speed")["figures"]
-    for name, own in now["cases_cpu_s"].items():
-        cells = row("reference/speed.md", f"`{name}`")
-        for cell, part in zip(cells, ("all", "search for noise", "simulations"), strict=True):
-            assert near(cell, own[part]), name
     text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    took = [own["all"] for own in now["cases_cpu_s"].values()]
+    assert f"from {min(took):.2f} s" in text and max(took) == now["most_cpu_s"]
     assert f"median is {now['median_cpu_s']:.2f} s" in text and f"the most {now['most_cpu_s']:.2f} s" in text
+
+
+def test_growth_of_commands() -> None:
+    """Largest input, what it took, slopes and memory of each row; no page above 2 MB."""
+    for one in results("growth")["figures"]:
+        runs, cells = one["runs"], row("reference/speed.md", f"`{one['command']}`")
+        last = runs[-1]
+        assert len(runs) == 4 and cells[0].replace(" ", "") == str(last["n"])
+        for cell, value in zip(cells[1:], (last["cpu_s"], last["peak_mb"], one["cpu_slope"]), strict=False):
+            assert near(cell, value), one["command"]
+        assert near(cells[4], one["memory_kb_each"]) and all(run["page_mb"] < 2.0 for run in runs), one["command"]
+        n, cpu = np.array([[run["n"], run["cpu_s"]] for run in runs]).T
+        line = np.polyfit(np.log(n[1:] - n[0]), np.log(cpu[1:] - cpu[0]), 1)
+        assert abs(one["cpu_slope"] - line[0]) < 1e-9
 
 
 def test_kills_and_scaling_of_studies() -> None:

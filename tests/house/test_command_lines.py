@@ -28,9 +28,6 @@ from tests.house.warm_command import warm_command
 NOT_RUN = {("README.md", 1): "make installs the package and runs these tests"}
 """Blocks that are not run, and why."""
 
-ELSEWHERE = {"docs/how-to/cohort.md": "SLURMCluster"}
-"""Python that needs a cluster: tests/study/test_slurm.py runs it beside a stand-in for one."""
-
 STAND_INS = {
     "docs/reference/input_files.md": {
         "talus.stl": "femoral_component_right_coarse.stl",
@@ -132,7 +129,7 @@ def test_every_block_prints_what_the_page_shows(tmp_path: Path, page: Path, comm
     for block in shell_blocks(page):
         if block.whole and (name, block.number) not in NOT_RUN:
             run(["bash", "-eu", "-c", block.code], block.shown, tmp_path, environment)
-    scripts = [one for one in shell_blocks(page, "python") if ELSEWHERE.get(name, "\0") not in one.code]
+    scripts = list(shell_blocks(page, "python"))
     if page in GUIDES and scripts:  # as typed in one session of Python
         code, shown = "\n".join(one.code for one in scripts), tuple(line for one in scripts for line in one.shown)
         run([sys.executable, "-c", code], shown, tmp_path, environment)

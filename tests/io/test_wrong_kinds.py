@@ -105,6 +105,7 @@ steps.ik.analysis = "ik"
 steps.ik.per = ["subject"]
 steps.ik.where = { condition = ["slow"] }
 steps.ik.options = { markers = "a.csv", model = "a.osim" }
+steps.ik.limits = { time = { value = 60, unit = "s" }, memory = "1GB", cores = 2 }
 [options]
 moving = "a.stl"
 fixed = "a.stl"
@@ -127,6 +128,17 @@ particles = "a.particles"
 unit = "mm"
 body = "fixed"
 at = [0, 50, 100]
+[limits]
+time = { value = 600, unit = "s" }
+memory = "4GB"
+cores = 1
+[cluster]
+jobs = 10
+cores = 4
+memory = "32GB"
+walltime = "04:00:00"
+queue = "short"
+account = "knees"
 """,
         {
             r"trials \d+ (subject|walk)": FREE,
@@ -134,6 +146,7 @@ at = [0, 50, 100]
             r"(vary|sweep) \w+ \d+": FREE,
             r"(steps ik )?where \w+ \d+": FREE,
             "summary where .*": FREE,
+            "cluster (queue|account)": ("number",),
             r"(options|trials \d+ options|steps ik options) \w+": (*FREE, "list", "table", "date"),
             r"options motion": (*FREE, "list"),
         },

@@ -156,17 +156,6 @@ def test_the_page_of_many_trials_links_to_those_that_it_shows(trials: int) -> No
     assert len(table.rows) == len(table.links) == min(trials, 500)
 
 
-@pytest.mark.slow
-def test_a_trial_that_takes_more_memory_than_it_may_is_set_aside(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    file = study(tmp_path, {"A": "1", "B": "2 hungry"})
-    done = call("cohort", file, "--run-simulator", "--workers", "1", "--memory", "700MB", "--out", out, folder=out)
-    assert done.code == 1 and done.complaints[1:] == ["B: its worker was killed 3 times: out of memory, or a crash"], (
-        done.err
-    )
-    assert list(done.table("trials.csv")["state"]) == ["done", "set aside"]
-
-
 @pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no /proc here")
 def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
     refused = call("cohort", study(tmp_path, NUMBERS), "--run-simulator", "--out", "/proc/none")
@@ -223,8 +212,11 @@ def test_conditions_are_compared_and_the_page_leads_to_every_trial(tmp_path: Pat
     ("options", "said"),
     [
         (("--memory", "lots"), "--memory: 'lots' is not a size of memory; write for example 4GB"),
-        (("--workers", "0"), "--workers: 0 is less than one process"),
-        (("--scheduler", "here"), "--scheduler: 'here' is not an address; write tcp://host:8786, or local"),
+        (("--workers", "0"), "--workers: 0 is less than one; give 1 or more"),
+        (
+            ("--scheduler", "here"),
+            "--scheduler: 'here' is not an address; write tcp://host:8786, slurm, pbs, lsf, sge, or local",
+        ),
         (("--scheduler", "tcp://h:1", "--workers", "2"), "--workers: has no effect with --scheduler"),
     ],
 )

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import os
+import threading
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
+from geocontact.analyses.frame.folder import RUN
 from geocontact.data.errors import InputError
+from geocontact.study.address import Digests
 from geocontact.study.store import TOLD, Store
 
 
@@ -32,3 +36,63 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "a" / TOLD)
     with pytest.raises(InputError, match="is a named pipe"):
         Store(tmp_path).told("a")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "[]",
+        "{}",
+        "5",
+        "{",
+        "[" * 100_000,
+        '{"tables": "area", "warnings": 5}',
+        '{"tables": [5], "warnings": []}',
+        '{"tables": ["area"], "warnings": [{}]}',
+    ],
+)
+def test_what_describes_no_trial_is_refused_in_a_line(tmp_path: Path, content: str) -> None:
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / TOLD).write_text(content)
+    with pytest.raises(InputError, match="does not say what a trial has; remove that folder"):
+        Store(tmp_path).told("a")
+
+
+def whole(folder: Path, inputs: object) -> Store:
+    """Results of a stranger that say what they were made of."""
+    (folder / "a").mkdir()
+    (folder / "a" / TOLD).write_text('{"tables": [], "warnings": []}')
+    (folder / "a" / RUN).write_text(json.dumps({"inputs": inputs}))
+    return Store(folder)
+
+
+def test_results_are_used_while_their_inputs_are_the_same(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").write_text("1")
+    store = whole(tmp_path, [{"file": "x.csv", "sha256": sha256(b"1").hexdigest()}, {"file": "no sum"}])
+    assert store.holds("a", tmp_path, Digests())
+    (tmp_path / "x.csv").write_text("22")
+    assert not store.holds("a", tmp_path, Digests())
+
+
+def ask(store: Store, home: Path, ended: list[bool]) -> None:
+    """Whether results are there, once that is known."""
+    ended.append(store.holds("a", home, Digests()))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_inputs_that_would_be_waited_for_are_not_opened(tmp_path: Path) -> None:
+    """A pipe, a device without an end, and a folder."""
+    os.mkfifo(tmp_path / "pipe")
+    for k, name in enumerate(("pipe", "/dev/zero", ".")):
+        (tmp_path / str(k)).mkdir()
+        store = whole(tmp_path / str(k), [{"file": name, "sha256": "0"}])
+        ended: list[bool] = []
+        asked = threading.Thread(target=ask, args=(store, tmp_path, ended), daemon=True)
+        asked.start()
+        asked.join(10.0)
+        assert ended == [False], name
+
+
+@pytest.mark.parametrize("inputs", [5, [5], [{"file": 5, "sha256": 5}], None, [[]] * 3 + [None]])
+def test_other_inputs_are_no_results(tmp_path: Path, inputs: object) -> None:
+    assert not whole(tmp_path, inputs).holds("a", tmp_path, Digests())

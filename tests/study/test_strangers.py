@@ -82,17 +82,6 @@ def test_workers_that_end_at_once_do_not_keep_a_study_waiting(tmp_path: Path, mo
     assert time.monotonic() - started < 240.0
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="there a thread ends the process, which such code holds up")
-def test_a_trial_that_takes_too_long_is_set_aside(tmp_path: Path) -> None:
-    """A minute in compiled code that lets no other thread run; the others are done."""
-    out = tmp_path / "out"
-    file = study(tmp_path, {"A": "1", "B": "2 holds", "C": "3"})
-    done = call("cohort", file, "--run-simulator", "--workers", "1", "--limit", "4", "--out", out, folder=out)
-    assert list(done.table("trials.csv")["state"]) == ["done", "set aside", "done"], done.err
-    assert "B: took more than 4 s, and then more than 8 s" in done.err
-
-
 class Lost:
     """A client whose workers are all gone, and which gives out tasks that never end."""
 
@@ -250,6 +239,86 @@ def test_a_command_quotes_them(tmp_path: Path, scheduler: str) -> None:
     assert json.loads((out / "run.json").read_text(encoding="utf-8"))["options"]["excel_safe"] is True
 
 
+def refused_in_a_line(*words: object) -> str:
+    """What a command says that refuses its input in one line."""
+    found = call(*words)
+    assert found.code == 2 and len(found.complaints) == 1 and found.err.count("\n") == 1, found.err
+    return found.err
+
+
+LAUGHS = "".join(f'<!ENTITY l{k} "{f"&l{k - 1};" * 10}">' for k in range(1, 12))
+BOMB = f'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY l0 "ha">{LAUGHS}]><OpenSimDocument>&l11;</OpenSimDocument>'
+OUTSIDE = (
+    '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY x SYSTEM "file:///etc/passwd">]><OpenSimDocument>&x;</OpenSimDocument>'
+)
+
+
+@pytest.mark.parametrize("text", [BOMB, OUTSIDE], ids=["bomb", "external entity"])
+def test_entities_of_models_and_set_ups_are_refused(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "stranger.osim"
+    file.write_text(text, encoding="utf-8")
+    out = ("--out", tmp_path / "out")
+    assert "stranger.osim" in refused_in_a_line("markers", ROOT / "meshes/leg_swing.mot", "--model", file, *out)
+    assert "stranger.osim" in refused_in_a_line("ik", "--setup", file, *out)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_set_up_that_is_not_utf_8_is_refused_in_a_line(tmp_path: Path) -> None:
+    file = tmp_path / "setup.xml"
+    file.write_bytes(b"<OpenSimDocument><name>Ger\xe4t</name><a/></OpenSimDocument>")
+    found = call("ik", "--setup", file, "--out", tmp_path / "out")
+    first, *rest = found.err.splitlines()
+    assert found.code == 2 and len(rest) == 1 and "osim_xml.py" not in found.err, found.err
+    assert first.startswith("warning: ") and first.endswith("byte 26 is not UTF-8; the file is read as Latin-1")
+
+
+def test_a_c3d_that_claims_much_takes_little(tmp_path: Path) -> None:
+    """65535 points in 65534 frames, in 2 kB."""
+    head = bytearray(2048)
+    head[0:2] = bytes([2, 0x50])
+    head[2:4] = head[4:6] = (65535).to_bytes(2, "little")
+    head[6:8], head[8:10] = (1).to_bytes(2, "little"), (65534).to_bytes(2, "little")
+    file = tmp_path / "claims.c3d"
+    file.write_bytes(head)
+    before = psutil.Process().memory_info().rss
+    refused_in_a_line("ik", file, "--model", ROOT / "meshes/leg.osim", "--out", tmp_path / "out")
+    assert psutil.Process().memory_info().rss - before < 300e6
+
+
+def test_a_file_behind_a_link_in_the_results_is_kept(tmp_path: Path) -> None:
+    """The link is replaced, what it leads to stays."""
+    mesh, out, other = ROOT / "meshes/sphere_r18.stl", tmp_path / "out", tmp_path / "other.json"
+    words = ("fit", mesh, "--unit", "mm", "--shape", "sphere", "--out", out)
+    assert call(*words).code == 0
+    other.write_text("mine", encoding="utf-8")
+    (out / "fit.json").unlink(missing_ok=True)
+    (out / "fit.json").symlink_to(other)
+    call(*words)
+    assert other.read_text(encoding="utf-8") == "mine"
+
+
+def test_a_summary_names_a_table_and_no_path(tmp_path: Path, scheduler: str) -> None:
+    given = ("--run-simulator", "--scheduler", scheduler, "--out", tmp_path / "out")
+    pd.DataFrame({"secret": [1.0]}).to_parquet(tmp_path / "elsewhere.parquet")
+    file = study(tmp_path, {"A": "1"}, "[summary]", 'table = "../../../elsewhere"')
+    refused = call("cohort", file, *given)
+    assert refused.code == 2 and "'../../../elsewhere' is not the name of a table" in refused.err
+    assert "secret" not in refused.err
+
+
+def test_names_of_trials_are_no_paths(tmp_path: Path, scheduler: str) -> None:
+    """Folders have the names of digests, whatever a trial is called."""
+    out = tmp_path / "deep" / "out"
+    listed = '[[trials]]\nsubject = "../../../escaped"\noptions = { file = "A.txt" }'
+    (tmp_path / "A.txt").write_text("1", encoding="utf-8")
+    file = tmp_path / "study.toml"
+    file.write_text(f'analysis = "tests.study.quick:quick"\n{listed}\n', encoding="utf-8")
+    done = call("cohort", file, "--run-simulator", "--scheduler", scheduler, "--out", out, folder=out)
+    assert done.code == 0, done.err
+    assert {each.name for each in tmp_path.iterdir()} == {"A.txt", "study.toml", "deep"}
+    assert [each.name for each in (tmp_path / "deep").iterdir()] == ["out"]
+
+
 PAGE = {
     "name a program": "tests/io/test_gap_case.py::test_a_program_is_not_run_unasked",
     "name a module of Python": "tests/systems/test_own_model.py::test_code_in_the_folder_of_a_case_is_not_run",
@@ -261,6 +330,41 @@ PAGE = {
     "show folders of your machine": "tests/cli/test_opensim_setup.py::test_what_is_written_is_read_back",
 }
 """Words of each row of the page, and the test that holds it."""
+
+
+HERE = "tests/study/test_strangers.py::"
+ATTACKS = {
+    "rerun starts the program of a case": f"{HERE}test_no_file_starts_what_it_names_by_itself",
+    "cohort starts it": f"{HERE}test_no_file_starts_what_it_names_by_itself",
+    "a case names a program": "tests/io/test_gap_case.py::test_a_program_is_not_run_unasked",
+    "a module beside the study": f"{HERE}test_an_analysis_in_a_module_of_others_is_not_imported",
+    "other users reach the workers": f"{HERE}test_processes_of_a_study_refuse_other_users_of_the_machine",
+    "they reach jobs": "tests/study/test_jobs.py::test_a_job_asks_for_what_the_description_says",
+    "[cluster] speaks to a shell": "tests/study/test_jobs.py::test_no_text_of_a_description_reaches_a_shell",
+    "tables of a kept result": "tests/study/test_store.py::test_a_table_elsewhere_is_refused",
+    "a kept result that is none": "tests/study/test_store.py::test_what_describes_no_trial_is_refused_in_a_line",
+    "inputs of a kept result": "tests/study/test_store.py::test_inputs_that_would_be_waited_for_are_not_opened",
+    "the table of a summary": f"{HERE}test_a_summary_names_a_table_and_no_path",
+    "a name is a path": "tests/analyses/test_written_results.py::test_a_name_that_leads_elsewhere_is_refused",
+    "a trial's name is a path": f"{HERE}test_names_of_trials_are_no_paths",
+    "XML bomb, external entity": f"{HERE}test_entities_of_models_and_set_ups_are_refused",
+    "pipe as .osim, set-up, run.json, .csv": "tests/io/test_preflight.py::test_commands_refuse_pipes_and_devices",
+    "/dev/zero as .osim, run.json": "tests/io/test_preflight.py::test_commands_refuse_pipes_and_devices",
+    ".c3d that claims much": f"{HERE}test_a_c3d_that_claims_much_takes_little",
+    "out is a link": f"{HERE}test_a_file_behind_a_link_in_the_results_is_kept",
+    "script in a name": "tests/view/page/test_write.py::test_hostile_texts_change_no_element",
+    "cells that begin with =": f"{HERE}test_a_command_quotes_them",
+    ".xlsx that unpacks to much": "tests/io/test_preflight.py::test_a_workbook_that_unpacks_to_too_much_is_refused",
+    "set-up that is not UTF-8": f"{HERE}test_a_set_up_that_is_not_utf_8_is_refused_in_a_line",
+    "absolute paths in set-ups": "tests/cli/test_opensim_setup.py::test_what_is_written_is_read_back",
+}
+"""What was tried in the study of security, and the test that shows what happens."""
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_every_attack_has_its_test(attack: str) -> None:
+    file, _, name = ATTACKS[attack].partition("::")
+    assert f"def {name}(" in (ROOT / file).read_text(encoding="utf-8")
 
 
 def test_every_line_of_the_page_has_its_test() -> None:

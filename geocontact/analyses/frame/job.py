@@ -160,4 +160,5 @@ def execute(job: Job[Any, R], options: Options, out: Path, call: Call) -> tuple[
             inputs = job.read(options)
         with record.stage():
             result = job.run(inputs, options)
+            del inputs  # a long recording, while its results are written
             return result, result.put(draft)

@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.embedded import LARGEST_EMBEDDED, Embedded
-from geocontact.analyses.frame.folder import written_whole
+from geocontact.analyses.frame.folder import is_inside, written_whole
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.words import counted
+from geocontact.data.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -221,18 +222,18 @@ class Result(ABC):
         for name, table in self.tables().items() if "tables" in parts else ():
             if name in self.elsewhere:
                 continue
-            _make_room(folder / name)
+            _make_room(folder, name)
             if len(table.columns):  # without any there is nothing that a file could hold
                 write_table(table, folder, name, self.units(name))
             if about := self.refers_to(name):
                 self.record.tables[f"{name}.csv"] = about
         saved = {}
         for name, figure in self.figures().items() if "figures" in parts else ():
-            _make_room(folder / name)
+            _make_room(folder, name)
             saved[name] = save_both(figure, folder, name)
         drawings = Drawings(self.figures) if "figures" in self.record.without else saved
         for name, page in self._pages(drawings).items() if "pages" in parts else ():
-            _make_room(folder / name)
+            _make_room(folder, name)
             home = name.rpartition("/")[0]
             write_finished(page, folder / name, self.record, home, self.reservations(home))
 
@@ -380,5 +381,8 @@ def _without_bands(result: Result, sheets: Mapping[str, CurveSheet]) -> Mapping[
     return sheets if result.spread_bands else withheld_sheets(sheets)
 
 
-def _make_room(file: Path) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
+def _make_room(folder: Path, name: str) -> None:
+    """A sub-folder that the name of a file begins with; InputError where it leads out of the folder of results."""
+    if not is_inside(folder, name):
+        raise InputError(folder, "", f"{name[:80]!r} is not a name of results", "rename what it is made of")
+    (folder / name).parent.mkdir(parents=True, exist_ok=True)

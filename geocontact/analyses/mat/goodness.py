@@ -40,10 +40,12 @@ def goodness_of_cells(frames: PressureFrames, saturated: Bool[np.ndarray, "t r c
 
 
 def _of_cells(frames: PressureFrames, saturated: Bool[np.ndarray, "t r c"]) -> Iterable[Doubt]:
+    if not saturated.any():
+        return
     pressed = np.where(frames.valid, frames.pressure, 0.0) > 0.0
     under = _areas(pressed, frames)
     heaviest = int(np.argmax(frames.force))
-    if under[heaviest] > 0.0 and saturated.any():
+    if under[heaviest] > 0.0:
         share = float(_areas(saturated & pressed, frames)[heaviest] / under[heaviest])
         what = f"cells clip on {share:.0%} of the area under the largest force"
         yield Doubt(what, share >= MUCH, share)

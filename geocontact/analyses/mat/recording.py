@@ -17,6 +17,7 @@ from geocontact.analyses.frame.collector import add_input, judge, note, reserve,
 from geocontact.analyses.mat.goodness import goodness_of_cells, odd_cells
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import blocks
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.landmarks import poses_at
@@ -219,15 +220,20 @@ def read_recording(o: MatOptions) -> tuple[PressureFrames, tuple[tuple[int, int]
 
 def made_ready(read: PressureFrames, listed: tuple[tuple[int, int], ...], o: MatOptions) -> PreparedFrames:
     """Frames without offset and dead cells, smoothed; `listed` are the cells that the layout lists as dead."""
-    pressure = np.where(read.valid, read.pressure, 0.0)
+    pressure = _working(read, 0.0)
     if o.unloaded is not None:
         pressure = pressure - _zero(read, pressure, o.unloaded).at(read.time)
     sound = treated(read, pressure, listed, o.dead, o.touched)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
-    frames = replace(read, pressure=np.where(valid, pressure, np.nan), valid=valid)
+    frames = replace(read, pressure=pressure if valid.all() else np.where(valid, pressure, np.nan), valid=valid)
     found = PreparedFrames(frames, read, sound.gaps)
     _reserve_oddities(found, o)
     return found
+
+
+def _working(frames: PressureFrames, other: float) -> Float[np.ndarray, "t r c"]:
+    """Pressures, and `other` where there is no cell; no copy where there are cells everywhere."""
+    return frames.pressure if frames.valid.all() else np.where(frames.valid, frames.pressure, other)
 
 
 def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
@@ -299,7 +305,7 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
 
 def _reserve_one_top(seen: PreparedFrames) -> None:
     """A warning where several cells stop at one and the same largest value, below the stated saturation."""
-    pressure = np.where(seen.read.valid, np.nan_to_num(seen.read.pressure), 0.0)
+    pressure = _working(seen.read, 0.0)
     top = float(pressure.max(initial=0.0))
     stopped = ((pressure == top).sum(axis=0) >= STOPS).sum()
     between = ((pressure > 0.0) & (pressure < top)).sum() > PART * (pressure > 0.0).sum()
@@ -354,8 +360,9 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
 
 def _reserve_negative(frames: PressureFrames) -> None:
     """Noise about zero sums to little; an offset that was taken off and was none does not."""
-    pressure = np.where(frames.valid, frames.pressure, 0.0)
-    below = np.tensordot(np.minimum(pressure, 0.0), frames.cell_area, 2)
+    pressure = _working(frames, 0.0)
+    parts = blocks(len(pressure), frames.valid.size)
+    below = np.concatenate([np.tensordot(np.minimum(pressure[some], 0.0), frames.cell_area, 2) for some in parts])
     lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
     note("below_zero", {"lowest_Pa": lowest, "largest_force_N": -least})
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):

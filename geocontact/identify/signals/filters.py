@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.interpolate import PchipInterpolator
 
+from geocontact.data.frame_blocks import blocks
 from geocontact.identify.signals.cycles import Span
 
 UNEVEN = 0.05
@@ -149,6 +150,10 @@ def _both_ways(
 
     sections = butter(order, corner, fs=1.0 / step, output="sos")
     try:
-        return np.asarray(sosfiltfilt(sections, values, axis=0, padlen=mirrored))
+        channels = values.reshape(len(values), -1)
+        found = np.empty(channels.shape)
+        for some in blocks(channels.shape[1], len(values)):
+            found[:, some] = sosfiltfilt(sections, channels[:, some], axis=0, padlen=mirrored)
+        return found.reshape(values.shape)
     except ValueError as error:
         raise ValueError(f"{len(values)} samples are too few to be filtered") from error

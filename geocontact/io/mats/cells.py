@@ -105,8 +105,11 @@ def frames_of(found: MatRecording, layout: MatLayout, *, signed: bool = False) -
     time = _times(found, layout)
     row, column = _places(found, layout, rows, columns)
     values = np.frombuffer(found.values, dtype=np.float64).reshape(len(found.lines), -1)
-    pressure = np.full((len(values), rows, columns), np.nan)
-    pressure[:, row, column] = values
+    if np.array_equal(row * columns + column, np.arange(rows * columns)):  # no second copy of a long recording
+        pressure = values.reshape(-1, rows, columns)
+    else:
+        pressure = np.full((len(values), rows, columns), np.nan)
+        pressure[:, row, column] = values
     with np.errstate(over="ignore"):  # refused below as not finite
         pressure *= unit
     valid = _valid(found, layout, pressure)

@@ -18,8 +18,8 @@ from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, UNKNOWN, lines, l
 LARGEST_RECORDING = 512_000_000
 """Bytes of one file."""
 
-MOST_VALUES = 40_000_000
-"""Cells times frames of one mat: 512 cells at 100 Hz for 13 minutes, 0.3 GB."""
+MOST_VALUES = 64_000_000
+"""Cells times frames of one mat: 128 cells at 100 Hz for 83 minutes, 0.5 GB."""
 
 HEAD = 1 << 16
 """Bytes in which a file has to show of what kind it is."""

@@ -101,14 +101,26 @@ def _fits(column: str, convention: Mapping[str, str]) -> bool:
 DIGITS = 12
 
 
+ROWS = 1 << 15
+"""Rows that are written at a time: texts of all of a long recording would take more than its numbers."""
+
+
 def with_microseconds(table: pd.DataFrame, digits: int) -> pd.DataFrame:
     """The table with its columns in seconds as text, as far as so many digits would lose microseconds."""
-    texts = {
-        name: ["" if pd.isna(each) else seconds(each, digits) for each in table[name]]
+    return _with_texts(table, _late_columns(table, digits), digits)
+
+
+def _late_columns(table: pd.DataFrame, digits: int) -> list[str]:
+    return [
+        str(name)
         for name in table.columns
         if str(name).endswith("[s]") and is_float_dtype(table[name]) and is_late(table[name].abs().max(), digits)
-    }
-    return table.assign(**texts)
+    ]
+
+
+def _with_texts(table: pd.DataFrame, columns: Iterable[str], digits: int) -> pd.DataFrame:
+    texts = {name: ["" if pd.isna(each) else seconds(each, digits) for each in table[name]] for name in columns}
+    return table.assign(**texts) if texts else table
 
 
 def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Mapping[str, str] = RESULTS) -> None:
@@ -120,5 +132,8 @@ def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Ma
     """
     if odd := misfits(table.columns, units):
         raise ValueError(f"{name}: {', '.join(odd)}: not the unit that tables have for this kind of quantity")
-    shown = with_microseconds(table, DIGITS)
-    shown.to_csv(folder / f"{name}.csv", index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
+    late = _late_columns(table, DIGITS)
+    with (folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+        for start in range(0, max(1, len(table)), ROWS):
+            shown = _with_texts(table.iloc[start : start + ROWS], late, DIGITS)
+            shown.to_csv(file, index=False, header=not start, float_format=f"%.{DIGITS}g", lineterminator="\n")

@@ -1,0 +1,55 @@
+"""What is worked out a part at a time is what numpy and scipy get from the whole."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.signal import butter, sosfiltfilt
+
+from geocontact.data import frame_blocks
+from geocontact.data.frame_blocks import blocks
+from geocontact.data.pressure_frames import PressureFrames
+from geocontact.identify.signals.filters import as_opensim
+from geocontact.io.text import results
+
+PRESSURE = np.random.default_rng(58).uniform(0.0, 2e4, (101, 4, 3))
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts of a few values."""
+    monkeypatch.setattr(frame_blocks, "AT_ONCE", 50)
+
+
+def test_parts_follow_each_other() -> None:
+    assert list(blocks(9, 12)) == [slice(0, 4), slice(4, 8), slice(8, 9)]
+    assert list(blocks(0, 12)) == [slice(0, 0)] and len(list(blocks(3, 1000))) == 3
+
+
+def test_force_and_filter_of_parts_are_those_of_the_whole() -> None:
+    area = np.full((4, 3), 1e-4)
+    frames = PressureFrames(np.arange(101.0), PRESSURE, (0.01, 0.01), np.ones((4, 3), bool), area, 1.9e4)
+    np.testing.assert_allclose(frames.force, np.einsum("trc,rc->t", PRESSURE, area), rtol=1e-14)
+    assert (frames.saturated == (PRESSURE >= 1.9e4)).all()
+    whole = sosfiltfilt(butter(3, 6.0, fs=100.0, output="sos"), PRESSURE, axis=0, padlen=50)
+    np.testing.assert_array_equal(as_opensim(PRESSURE, 0.01, 6.0), whole)
+    with pytest.raises(ValueError, match="must be finite"):
+        replace(frames, pressure=np.where(PRESSURE[-1, -1, -1] == PRESSURE, np.nan, PRESSURE))
+
+
+def test_a_table_of_parts_is_that_of_the_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Late clocks are text in every part, also in one whose own rows are not late; an empty table has its header."""
+    time = np.r_[0.25, 1.5, 1e9 + 1e-6 * np.arange(5.0)]
+    table = pd.DataFrame({"time [s]": time, "force [N]": np.pi * np.arange(7.0), "side": list("llrrlrl")})
+    texts = {}
+    for rows in (3, 100):
+        monkeypatch.setattr(results, "ROWS", rows)
+        results.write_table(table, tmp_path, "t")
+        texts[rows] = (tmp_path / "t.csv").read_bytes()
+    assert texts[3] == texts[100] and texts[3].count(b"\n") == 8
+    results.write_table(table.iloc[:0], tmp_path, "none")
+    assert (tmp_path / "none.csv").read_text(encoding="utf-8") == "time [s],force [N],side\n"
