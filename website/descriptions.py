@@ -35,8 +35,8 @@ REQUIRED = "required"
 INTRODUCTION = """# Keys of descriptions
 
 Files in TOML that commands read; made by `python -m website.pages`. Keys in **bold** are required. Paths start from the
-folder of the file. A key that is not listed is refused, and so is a value that its key does not hold. `{ value, unit }`
-is a number with its unit, `{ value = 32, unit = "mm" }`, in any unit of the same kind; `source` and `note` may stand
+folder of the file. A key that is not listed is refused, and so is a value that its key does not hold. A quantity is a
+number with its unit, `{ value = 32, unit = "mm" }`, in any unit of the same kind; `source` and `note` may stand
 beside them."""
 
 
@@ -217,7 +217,7 @@ def holds(marks: list[Any], kind: Any) -> str:
     if said is not None:
         words = said
     elif unit is not None:
-        words = f"`{{ value, unit }}`{' or number' if unit.bare else ''}{_unit(unit)}"
+        words = f"quantity{' or number' if unit.bare else ''}{_unit(unit)}"
     elif get_origin(kind) is Literal:
         words = ", ".join(f"`{each}`" for each in get_args(kind))
     elif get_origin(kind) is tuple:

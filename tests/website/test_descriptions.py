@@ -48,7 +48,7 @@ def test_a_key_says_what_it_holds_and_what_counts_without_it() -> None:
     assert rows == [
         ("", "`seated`", "true or false", "false", "Whether they sit."),
         ("`[[persons]]`", "`name`", "letters, digits, - and _", "`P{number}`", "Its name."),
-        ("`[[persons]]`", "`mass`", "`{ value, unit }`, kg, above 0", "", "Body mass."),
+        ("`[[persons]]`", "`mass`", "quantity, kg, above 0", "", "Body mass."),
     ]
 
 
