@@ -69,8 +69,8 @@ def counted_twice(pairs: Sequence[TouchingPair]) -> list[tuple[str, str, str, st
     """Body, two pairs that have faces of it in common, and which sums have contact twice where both pairs touch there.
 
     Two pairs with one FIXED have its faces in common. Where they are the same two bodies in reverse, the area on one
-    and that on the other are one contact if faces of both are in common. Loads are doubled where the same two bodies have a
-    layer in both pairs; other bodies on the same faces press by themselves.
+    and that on the other are one contact if faces of both are in common. Loads are doubled where the same two bodies
+    have a layer in both pairs; other bodies on the same faces press by themselves.
     """
     found = []
     for k, one in enumerate(pairs):
