@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,15 @@ MESHES = ROOT / "meshes"
 )
 def test_every_step_of_a_shipped_study_is_planned(name: str, steps: list[str]) -> None:
     assert [run.step for run in runs_of(read_study_file(STUDIES / f"{name}.toml", MESHES))] == steps
+
+
+def test_parts_of_the_prosthesis_are_of_one_person_and_said_to_stand_beside_each_other() -> None:
+    """Nothing of the model of both legs goes into the stance; the mass is typed twice."""
+    file = STUDIES / "prosthesis.toml"
+    study = tomllib.loads(file.read_text(encoding="utf-8"))
+    assert study["options"]["mass"] == study["steps"]["scale"]["options"]["mass"]
+    taken = any("{scale:" in str(value) or "{ik:" in str(value) for value in study["options"].values())
+    assert taken != ("nothing of that model" in file.read_text(encoding="utf-8"))
 
 
 def results(out: Path) -> pd.Series:
