@@ -13,6 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
+from meshes.ball_press import ball_press
 from meshes.gait import synthetic_gait
 from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
@@ -93,7 +94,8 @@ def overhead_files() -> dict[str, bytes]:
 
 def committed_files() -> dict[str, bytes]:
     """Every generated file that belongs to the repository."""
-    return all_knee_files() | simple_files() | gait_files() | leg_files() | mat_files() | overhead_files()
+    press = {"ball_press.csv": ball_press().encode("ascii")}
+    return all_knee_files() | simple_files() | press | gait_files() | leg_files() | mat_files() | overhead_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:

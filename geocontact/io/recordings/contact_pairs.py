@@ -29,7 +29,8 @@
 
 All motions are in one frame, such as the laboratory's; a body without one rests in it. Instead of files of poses:
 `model` (.osim) and `coordinates` of it (.mot, .sto) for the whole description, and for each body the `segment` of the
-model that it is fixed to; the frame is the model's ground then. Times are those of the first body that moves.
+model that it is fixed to; the frame is the model's ground then. Times are those of the first body of a pair that
+moves.
 """
 
 from __future__ import annotations
@@ -52,6 +53,9 @@ from geocontact.io.documents import (
     read_document,
     refusal,
 )
+
+TOTAL = "total"
+"""What columns of the sums over all pairs are called."""
 
 
 class DescribedBody(Document):
@@ -134,6 +138,8 @@ class DescribedPair(Document):
 
     @model_validator(mode="after")
     def _require_two(self) -> DescribedPair:
+        if self.name == TOTAL:
+            raise refusal(f"{TOTAL} is what the sums of all pairs are called", "give another name", at=("name",))
         if self.moving == self.fixed:
             raise refusal(f"{self.moving} is both moving and fixed", "name two bodies")
         return self

@@ -264,6 +264,7 @@ def test_what_counts_twice_or_does_not_fit_is_said(tmp_path: Path) -> None:
         (('fixed = "femur"', 'fixed = "patella"'), "patella is both moving and fixed; name two bodies"),
         (('region = "z < 0"', 'region = "z < -900"'), "[[pairs]] medial `region`: 'z < -900' holds for no face"),
         (('unit = "mm"', 'unit = "mm"\nrate = { value = 50, unit = "Hz" }'), "rate: has no effect here"),
+        (('name = "lateral"', 'name = "total"'), "[[pairs]] 2 name: total is what the sums of all pairs are called"),
         (('name = "lateral"', 'name = "medial"'), "two have the name 'medial'"),
         (('name = "insert"', 'name = "insert"\nsegment = "tibia"'), "segment: needs a model and its coordinates"),
     ):
@@ -285,6 +286,41 @@ def test_a_body_with_other_times_is_interpolated_and_said(tmp_path: Path) -> Non
     written(tmp_path / "plate.csv", "\n".join([text[0], text[1]]) + "\n")
     with pytest.raises(InputError, match="is known from 0 to 0 s only, not from 0 to 1"):
         run(file)
+
+
+def test_two_bodies_in_reverse_are_one_contact_and_it_is_said(tmp_path: Path) -> None:
+    """Each pair has a layer: the loads on both bodies are those of two contacts."""
+    layer = BALLS[BALLS.index("layer = ") :]
+    said = "faces of plate count in ball_plate and in reversed: where both touch, the {} them twice"
+
+    def told(more: str, text: str = BALLS) -> list[str]:
+        added = f'[[pairs]]\nname = "reversed"\nmoving = "plate"\nfixed = "ball"\n{more}'
+        result = run(balls(tmp_path, text + added))
+        assert (abs(result.loads["plate"][0]) > 1.0).any()
+        return [line for line in result.warnings if line.startswith("faces of")]
+
+    alone = run(balls(tmp_path))
+    assert told("") == [said.format("total has")]
+    assert told(layer) == [said.format("total and loads have")]
+    both = run(tmp_path / "pairs.toml")
+    whole, once = (np.linalg.norm(found.loads["plate"][0, :3]) for found in (both, alone))
+    assert whole / once == pytest.approx(1.0 + 12.0 / 40.0, rel=0.03), "as thick as plate and ball: forces go by 1/h"
+    apart = 'region_moving = "y < 0"\n'
+    assert told('region = "y > 0"\n', BALLS.replace("layer =", f"{apart}layer =")) == []
+
+
+def test_a_body_of_no_pair_sets_no_times(tmp_path: Path) -> None:
+    """It stands first, with a motion of other times."""
+    turned(tmp_path, "idle.csv", np.zeros(3), Rotation.identity())
+    idle = f'[[bodies]]\nname = "idle"\nmesh = "{SPHERE.as_posix()}"\nmotion = "idle.csv"\n'
+    text = (tmp_path / "idle.csv").read_text("utf-8").splitlines()
+    written(tmp_path / "idle.csv", "\n".join([text[0], text[1].replace("0.0", "-7.0", 1), text[1]]) + "\n")
+    result = run(balls(tmp_path, BALLS.replace("[[bodies]]", f"{idle}[[bodies]]", 1)))
+    assert result.time.tolist() == [0.0, 1.0]
+    assert any("idle is in no pair and is left out" in line for line in result.warnings)
+    rest = BALLS.replace('motion = "ball.csv"\n', "").replace('motion = "plate.csv"\n', "")
+    with pytest.raises(InputError, match="no body of a pair moves; write a motion for one"):
+        run(described(tmp_path, rest.replace("[[bodies]]", f"{idle}[[bodies]]", 1)))
 
 
 def test_the_command_writes_a_folder_for_each_pair(tmp_path: Path) -> None:

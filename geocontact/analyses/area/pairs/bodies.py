@@ -74,15 +74,18 @@ class TouchingBodies:
 
 def read(o: PairsOptions) -> TouchingBodies:
     """Everything the description names."""
-    described = read_pairs(o.description)
-    add_input("description", o.description, bodies=len(described.bodies), pairs=len(described.pairs))
+    given = read_pairs(o.description)
+    add_input("description", o.description, bodies=len(given.bodies), pairs=len(given.pairs))
+    used = {name for pair in given.pairs for name in (pair.moving, pair.fixed)}
+    for body in given.bodies:
+        if body.name not in used:
+            reserve(f"{o.description}: {body.name} is in no pair and is left out")
+    described = given.model_copy(update={"bodies": tuple(body for body in given.bodies if body.name in used)})
+    if all(body.motion is None and body.segment is None for body in described.bodies):
+        raise InputError(o.description, "[[bodies]]", "no body of a pair moves", "write a motion for one")
     motions = _at_one_clock(described, _motions(described, o.description))
     time = next(motion.time for motion in motions.values() if motion is not None)
     pairs = tuple(_pair(described, pair, o, motions, time) for pair in described.pairs)
-    used = {name for pair in pairs for name in (pair.moving, pair.fixed)}
-    for body in described.bodies:
-        if body.name not in used:
-            reserve(f"{o.description}: {body.name} is in no pair and is left out")
     return TouchingBodies(pairs, motions, time)
 
 
@@ -127,7 +130,7 @@ def _segments(described: PairsDescription, file: Path) -> dict[str, tuple[Path, 
 def _at_one_clock(
     described: PairsDescription, read: Mapping[str, tuple[Path, Motion] | None]
 ) -> dict[str, Motion | None]:
-    """All motions at the times of the first body that moves."""
+    """All motions at the times of the first body of a pair that moves."""
     first = next(known for body in described.bodies if (known := read[body.name]) is not None)
     found: dict[str, Motion | None] = {}
     for name, known in read.items():

@@ -129,8 +129,8 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     """Every pair after the other."""
     with listener().preparing():
         warm_up()
-    for body, one, other in counted_twice(pairs.pairs):
-        reserve(f"faces of {body} count in {one} and in {other}: where both touch, the total has them twice")
+    for body, one, other, whole in counted_twice(pairs.pairs):
+        reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)
     motions = tuple(over_motion(pair.bodies, pair.options, pair.name, pair.motion, shared) for pair in pairs.pairs)
     _say_total(pairs, motions)

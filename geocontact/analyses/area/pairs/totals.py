@@ -65,15 +65,30 @@ def loads_table(loads: dict[str, Float[np.ndarray, "t 6"]], time: Float[np.ndarr
     return pd.DataFrame({"time [s]": time, **columns})
 
 
-def counted_twice(pairs: Sequence[TouchingPair]) -> list[tuple[str, str, str]]:
-    """Body and two pairs that have a face of it in common, on which the sum of the areas would count contact twice."""
+def counted_twice(pairs: Sequence[TouchingPair]) -> list[tuple[str, str, str, str]]:
+    """Body, two pairs that have faces of it in common, and which sums have contact twice where both pairs touch there.
+
+    Two pairs with one FIXED have its faces in common. Where they are the same two bodies in reverse, the area on one
+    and that on the other are one contact if faces of both are in common. Loads are doubled where the same two bodies
+    have a layer in both pairs; other bodies on the same faces press by themselves.
+    """
     found = []
     for k, one in enumerate(pairs):
         for other in pairs[k + 1 :]:
-            if one.fixed != other.fixed:
+            bodies = {one.moving, one.fixed} if one.moving == other.fixed else {one.fixed}
+            same = {one.moving, one.fixed} == {other.moving, other.fixed}
+            if not (same or one.fixed == other.fixed) or not all(_in_common(body, one, other) for body in bodies):
                 continue
-            every = np.ones(len(one.bodies.fixed.faces), bool)
-            masks = [each.bodies.settings.fixed_faces for each in (one, other)]
-            if np.logical_and(*(every if mask is None else mask for mask in masks)).any():
-                found.append((one.fixed, one.name, other.name))
+            loads = same and one.options.pressure and other.options.pressure
+            found.append((one.fixed, one.name, other.name, "the total and loads have" if loads else "the total has"))
     return found
+
+
+def _in_common(body: str, one: TouchingPair, other: TouchingPair) -> bool:
+    """Whether both pairs count some face of the body."""
+    counted = []
+    for bodies, fixed in ((pair.bodies, pair.fixed == body) for pair in (one, other)):
+        surface = bodies.fixed if fixed else bodies.moving
+        mask = bodies.settings.fixed_faces if fixed else bodies.settings.moving_faces
+        counted.append(np.ones(len(surface.faces), bool) if mask is None else mask)
+    return bool(np.logical_and(*counted).any())
