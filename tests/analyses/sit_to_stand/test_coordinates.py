@@ -176,6 +176,7 @@ def test_a_stance_is_calibrated_to_files(tmp_path: Path) -> None:
     folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path)).write(tmp_path / "out")
     found = gc.sit_to_stand.calibrate(folder / "study.toml", nodes=40, resamples=0)
     assert found.found.solved and all(trial.certified for trial in found.trials)
+    assert any("noise is the one sit-to-stand coordinates writes, invented" in line for line in found.warnings)
     assert "ground reaction" not in found.sentences[0] and "test nothing" in found.sentences[1]
     assert not any("force" in name or "centre" in name for name in goodness_of_calibration(found).tested)
     assert found.trials[0].model.q.shape[1] == 5

@@ -14,9 +14,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import judge, listener, note, say
+from geocontact.analyses.frame.collector import judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
@@ -56,6 +57,7 @@ from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
 from geocontact.standing_up.calibration import calibrated_trials, calibration_numbers
+from geocontact.standing_up.stance import SIZES
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingUpTrials
 from geocontact.view.curves.declared import CurveSheet
@@ -219,6 +221,10 @@ def _report(r: StandingCalibrateResult) -> None:
         f"{counted(len(r.trials), 'trial')}: {''.join(on_plates)}angles within {angle:.2f}°{also} "
         "(largest RMSD of a trial)"
     )
+    if all(np.isclose(getattr(r.given.noise, name), size) for name, size in SIZES.items()):
+        reserve(
+            "the noise is the one sit-to-stand coordinates writes, invented; the test of fit rests on it: give your own"
+        )
     if r.given.one_leg:
         say("the plate's load is put in: force and centre of pressure test nothing")
     if r.found.solved and fit.outcome != "contradicts":
