@@ -1,10 +1,11 @@
 """Segments of somebody who stands up: by de Leva's table for men or women, or the person's own values.
 
 Masses, mass centres and radii of gyration are fractions of body mass and segment length (de Leva (1996), Adjustments to
-Zatsiorsky-Seluyanov's segment inertia parameters, J Biomech 29, 1223-1230); shanks end at the ankle's centre. Head,
-arms and trunk are one rigid body over the hips, as long as from these to the seventh cervical vertebra, rounded from
-that table with the arms hanging from 0.818 of the stature (Drillis & Contini 1966). The radius of gyration is 0.44
-of that length in men, where the table gives 0.37: shipped trials were made with it. Children need their own values.
+Zatsiorsky-Seluyanov's segment inertia parameters, J Biomech 29, 1223-1230); shanks end at the ankle's centre, by
+whose row the women's are. Head, arms and trunk are one rigid body over the hips, as long as from these to the seventh
+cervical vertebra, rounded from that table with the arms hanging from 0.818 of the stature (Drillis & Contini 1966). In
+men its radius of gyration is 0.44 of that length, where the table gives 0.37, and the shank has the fractions to the
+malleolus, 2.8 mm nearer to the ankle: shipped trials were made with both. Children need their own values.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ SHARES: dict[Sex, dict[str, PersonSegment]] = {
     },
     "female": {
         "foot": PersonSegment(2 * 0.0129, 0.1316, 0.16, 0.279),
-        "shank": PersonSegment(2 * 0.0481, 0.2528, 1.0 - 0.4416, 0.267),
+        "shank": PersonSegment(2 * 0.0481, 0.2528, 1.0 - 0.4352, 0.263),
         "thigh": PersonSegment(2 * 0.1478, 0.2124, 1.0 - 0.3612, 0.364),
         "trunk": PersonSegment(1.0 - 2 * (0.0129 + 0.0481 + 0.1478), 0.3543, 0.57, 0.36),
     },

@@ -166,7 +166,10 @@ def _own(
     used: Sequence[str],
     forwards: Float[np.ndarray, " 3"],
 ) -> dict[str, dict[str, float]]:
-    """Means over the legs that are used; feet as with all coordinates at their default."""
+    """Means over the legs that are used; feet as with all coordinates at their default.
+
+    The trunk has what two such legs leave of the model's mass.
+    """
     found: dict[str, list[dict[str, float]]] = {"foot": [], "shank": [], "thigh": []}
     rest = _forwards_at_rest(default, legs)[0]
     for side in used:
@@ -184,6 +187,8 @@ def _own(
     hips = 0.5 * sum(_centre(poses, leg.hip) for leg in legs.values())
     away = np.linalg.norm(_mass_centre(poses, groups["trunk"]) - hips, axis=1)
     trunk = _values(groups["trunk"], 0.0, float(away.mean()), poses, forwards)
+    every = sum(body.mass for bodies in groups.values() for body in bodies)
+    trunk["mass"] = every - 2.0 * sum(values["mass"] for values in own.values())
     return {**own, "trunk": {name: value for name, value in trunk.items() if name != "length"}}
 
 

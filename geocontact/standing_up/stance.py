@@ -39,6 +39,9 @@ LIFTED = 1.0
 """Force [N] that keeps the centre of pressure a number where the search lifts the foot; 0.1 mm under a step."""
 MOST_TURN = float(np.radians(30.0))
 """Forward turn of the foot up to which a sample is used: then the toes bend, which a rigid foot cannot."""
+BENEATH = (-0.15, 0.3)
+"""Centre of pressure ahead of the ankle [m], the median of a stance: beyond, another foot stands on the plate. Feet are
+0.26 m long and reach 0.06 m behind the ankle, and nobody stands on the tip of the toes throughout."""
 SIZES = {"length": 5e-3, "angle": float(np.radians(2.0)), "rate": 0.1, "force": 10.0, "centre": 5e-3}
 """Standard deviations of one sample from markers on soft tissue [m, rad, m/s and rad/s, N, m]; invented."""
 JERK = {"foot_jerk": 1500.0, "joint_jerk": 6000.0}
@@ -110,6 +113,12 @@ def smooth(time: Times, values: Float[np.ndarray, "t c"]) -> Float[np.ndarray, "
 def in_stance(up: Times, turn: Times) -> Bool[np.ndarray, " t"]:
     """Samples with a foot that is loaded and flat enough to be rigid."""
     return np.asarray((up > LEAST) & (turn > -MOST_TURN))
+
+
+def off_the_foot(centre: Times, ankle: Times) -> float | None:
+    """Median of the centre of pressure ahead of the ankle [m] where no foot reaches it; else None."""
+    ahead = float(np.median(centre - ankle))
+    return None if BENEATH[0] <= ahead <= BENEATH[1] else ahead
 
 
 def stances(time: Times, up: Times, turn: Times, fewest: int) -> list[tuple[float, float]]:

@@ -250,10 +250,13 @@ def velocity_of_floor(seen: MarkerTrajectories, step: Step) -> Float[np.ndarray,
 def braking(trial: TrialInputs) -> Iterator[Contradiction]:
     """The force along the walk: against it in the first half of a step, with it in the second."""
     body = None if trial.markers is None else _velocity(trial.markers)
-    if body is None or trial.markers is None:
-        return
     for step in steps(trial):
-        velocity = body - velocity_of_floor(trial.markers, step)
+        if body is not None and trial.markers is not None:
+            velocity = body - velocity_of_floor(trial.markers, step)
+        elif trial.walk is not None:
+            velocity = trial.walk
+        else:
+            return
         velocity = velocity - (velocity @ trial.up) * trial.up
         if np.linalg.norm(velocity) < SPEED:
             continue
@@ -330,7 +333,8 @@ PLATE_CHECKS = (
     ),
     Check(
         "braking",
-        "force along the walk in the first and in the second half of a step, with the direction in which markers move",
+        "force along the walk in the first and in the second half of a step, with the direction in which markers "
+        "move, or the hip over the foot",
         f"{IMPULSE:.0%} of the load, of somebody faster than {SPEED:g} m/s; a load that moves by {1e3 * TRAVEL:g} mm",
         braking,
     ),

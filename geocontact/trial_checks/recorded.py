@@ -131,6 +131,8 @@ class TrialInputs:
         A model along the coordinates of a file; None where none are read.
     channels
         Whatever else was recorded.
+    walk
+        Velocity of the hip over the foot in a step [m/s], where there are no markers; None where it is not known.
     on_sole
         Whether heel and toes are points of the sole, and no markers above it.
     """
@@ -149,6 +151,7 @@ class TrialInputs:
     turn: Rotation | None = None
     moved: MovedModel | None = None
     channels: tuple[RecordedChannel, ...] = ()
+    walk: Float[np.ndarray, " 3"] | None = None
     on_sole: bool = False
 
     @property

@@ -48,6 +48,16 @@ def test_isb_is_flexion_adduction_rotation() -> None:
     np.testing.assert_allclose(np.column_stack(list(found.values())), [[0.7, -0.2, 0.1]])
 
 
+@pytest.mark.parametrize("joint", ["shoulder_r", "acromial_l", "right Glenohumeral"])
+def test_isb_of_the_shoulder_is_plane_elevation_rotation(joint: str) -> None:
+    """Wu et al. 2005; an elbow beside it stays ZXY."""
+    turned = Rotation.from_matrix(about("Y", 0.7) @ about("X", 1.2) @ about("Y", -0.4))
+    found = joint_angles(turned, "ISB", joint).columns
+    assert list(found) == ["first y", "second x", "third y"]
+    np.testing.assert_allclose(np.column_stack(list(found.values())), [[0.7, 1.2, -0.4]])
+    assert list(joint_angles(turned, "ISB", "elbow_r").columns) == ["first z", "second x", "third y"]
+
+
 def test_gimbal_lock_leaves_the_second_angle_and_nothing_else() -> None:
     through = np.radians(np.linspace(80.0, 90.0, 41))
     made = [about("X", 0.3) @ about("Y", b) @ about("Z", 0.2) for b in through]

@@ -25,7 +25,7 @@ def joint_angles_table(
     table: dict[str, Float[np.ndarray, " t"]] = {"time [s]": time}
     quaternion = form == "quaternion"
     for name, rotation in joint_rotations(model, values[whole]).items():
-        for turn, column in joint_angles(rotation, form).columns.items():
+        for turn, column in joint_angles(rotation, form, name).columns.items():
             own = np.full(len(time), np.nan)
             own[whole] = column if quaternion else np.degrees(column)
             table[f"{name} {turn} [{'-' if quaternion else 'deg'}]"] = own
@@ -38,7 +38,7 @@ def warn_of_gimbal_lock(
     """A warning for joints whose second angle comes near its end."""
     whole = np.isfinite(values).all(axis=1)
     for name, rotation in joint_rotations(model, values[whole]).items():
-        lock = joint_angles(rotation, form).lock
+        lock = joint_angles(rotation, form, name).lock
         if len(lock) and (least := float(lock.min())) < UNSURE:
             reserve(
                 f"{name}: the second angle of {form} comes within {np.degrees(least):.1f} degrees of gimbal lock at "

@@ -184,6 +184,18 @@ def foot_with_law(foot: VariableStiffnessFoot, file: Path | None) -> VariableSti
     return replace(foot, law=changed)
 
 
+def require_factors(foot: VariableStiffnessFoot, given: Path | None, law: Path | None) -> None:
+    """InputError for a zone without damping or friction, on which `calibrate` and `design` seek or vary a factor."""
+    spheres = foot.sole.spheres
+    numbers = {"damping": foot.law.damping, "friction": np.broadcast_to(foot.law.kinetic, len(spheres))}
+    for zone, chosen in spheres.zones.items():
+        for name, values in numbers.items():
+            if not values[chosen].min() > 0.0:
+                kind = "damping, of foam its retardation," if name == "damping" else "kinetic friction"
+                remedy = "give a positive number: it is multiplied by a factor"
+                raise InputError(law or given or "", f"zone {zone}", f"{kind} is 0", remedy)
+
+
 def _require_same_cut(foot: VariableStiffnessFoot, law: LawFile, file: Path) -> None:
     """InputError for stiffness or damping of a sphere or column of another sole than the foot's."""
     zones = [number for each in law.zone.values() for number in (each.k, each.b)]

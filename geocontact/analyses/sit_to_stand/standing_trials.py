@@ -32,7 +32,7 @@ from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, S
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
-from geocontact.standing_up.stance import in_stance, load_of_the_rest, one_leg, smooth
+from geocontact.standing_up.stance import in_stance, load_of_the_rest, off_the_foot, one_leg, smooth
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_sites
 from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, steady, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
@@ -227,7 +227,8 @@ def _stance(
     """
     time, place = whole.time, f"[[trials]] {files.name}"
     own = FootPlate(plate, str(files.plates))
-    check_trial(TrialInputs(plates=(own,), mass=subject.mass, mass_option=f"mass in {study}", moved=whole))
+    walk = _over_the_foot(subject, whole, _within(files, time))
+    check_trial(TrialInputs(plates=(own,), mass=subject.mass, mass_option=f"mass in {study}", moved=whole, walk=walk))
     wrench = _wrench(plate, time)
     raw = np.nan_to_num(np.column_stack([wrench.force[:, :2], wrench.moment[:, 2]]))
     try:
@@ -250,7 +251,21 @@ def _stance(
     force3, moment = np.hstack([load[used, :2], none]), np.hstack([none, none, load[used, 2:]])
     with _named(Path(own.source), plate):
         force, centre = under_the_feet(Wrench(force3, moment, 0.0 * force3, wrench.frame), at, q[used, 0])
+    off = off_the_foot(centre, q[used, 0])
+    if off is not None:
+        what = f"its load is {off:.2f} m ahead of the ankle (median)"
+        raise InputError(study, f"{place} feet", what, "is it the plate of the other foot?")
     return StandingTrial(at - at[0], q[used], u[used], force, centre, files.name, chair=rest[used])
+
+
+def _over_the_foot(subject: Subject, whole: MovedModel, used: Used) -> Float[np.ndarray, " 3"] | None:
+    """Mean velocity of the hip over the ankle [m/s]; None without two samples."""
+    if used.sum() < 2:
+        return None
+    turn = np.cumsum(whole.values[used, 2:5], axis=1)[:, 1:]
+    ahead = -np.sin(turn) @ [subject.segments[name].length for name in ("shank", "thigh")]
+    speed = (ahead[-1] - ahead[0]) / float(np.ptp(whole.time[used]))
+    return np.array([float(speed), 0.0, 0.0])
 
 
 def _doubt_unused(files: StandingTrialFiles) -> None:

@@ -24,6 +24,8 @@ CUTOFF = 6.0
 """Cut-off of the hinges' angles, whose rates friction follows [Hz]; that of `sit-to-stand device` by default."""
 IDLE = 3.0
 """Torque of motors that do not help, in parts of the noise of a torque, at the most."""
+SAME_LENGTH = 1e-4
+"""Difference in length [m] from which another exoskeleton is meant."""
 BY_ITSELF = 11
 """Parameters that a motion of all hinges identifies by themselves."""
 Times = Float[np.ndarray, " t"]
@@ -37,7 +39,7 @@ def person_of(study: StandingStudy) -> Subject:
 
 
 def worn_device(study: StandingStudy, file: Path) -> WornDevice:
-    """The exoskeleton of a study; InputError where its numbers are of another person's height or leave no inertia."""
+    """The exoskeleton of a study; InputError where its numbers are of other lengths or leave no inertia."""
     masses = DeviceMasses(**study.masses)
     if study.device is None:
         return WornDevice(masses)
@@ -46,6 +48,12 @@ def worn_device(study: StandingStudy, file: Path) -> WornDevice:
     if abs(found.height - study.height) > 1e-6:
         what = f"is of an exoskeleton that is set to {found.height:g} m, the person is {study.height:g} m tall"
         raise InputError(study.device, "height", what, f"run sit-to-stand device with height {study.height:g} m")
+    lengths = part_lengths(person_of(study))
+    set_to = part_lengths(Subject(height=found.height))
+    off = max(abs(own - other) for own, other in zip(lengths, set_to, strict=True))
+    if off > SAME_LENGTH:
+        what = f"is set to the lengths of a man of that height, from which [person] differs by {1e3 * off:.1f} mm"
+        raise InputError(study.device, "", what, "leave the lengths of [person] out, or device")
     if found.by_itself < BY_ITSELF:
         what = f"identifies {found.by_itself} parameters by themselves, where a motion of all hinges has {BY_ITSELF}"
         raise InputError(study.device, "", what, "move all three hinges in the motion without a person")
@@ -55,7 +63,6 @@ def worn_device(study: StandingStudy, file: Path) -> WornDevice:
             f"{file.name}: no mass of {', '.join(lacking)}: invented ones are used, which no motion without a person "
             "identifies; weigh the parts, and write [masses]"
         )
-    lengths = part_lengths(person_of(study))
     try:
         device = identified_device(found.values, lengths, masses)
     except ValueError as error:

@@ -177,6 +177,11 @@ The socket's peak is that of a foot that slaps down, whose dampers shift the loa
 NONE = MapError({}, {})
 
 
+def without_map_error(aim: Aim) -> bool:
+    """Whether no error of the map was measured for this aim, nor for the peak that it goes with."""
+    return PEAK.get(aim, aim) not in MEASURED.here
+
+
 def stiffer(knob: Knob, keel: Keel) -> Float[np.ndarray, " n"]:
     """Logarithm of the stiffness at the keel's tip of each value over that of the present one."""
     if knob.vary == "stiffness":

@@ -55,7 +55,8 @@ class RecordedLeg:
     q, u, a
         Of the leg's coordinates [m, rad], and their derivatives.
     driven
-        What drives the coordinates besides weight and the ground: all that acts on the body, torques [N, N m].
+        What drives the coordinates besides weight and the ground: all that acts on the body, torques [N, N m]; in the
+        first 0.1 s with the second derivatives of a spline's end.
     speed
         Of the place on the foot where the centre of pressure is, forward and upwards [m/s].
     raised

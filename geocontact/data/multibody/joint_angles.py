@@ -2,8 +2,10 @@
 
 A sequence names the axes of the joint's frames in the order of the turns, each turned by the ones before it: ZXY is
 flexion about z, adduction about the turned x, rotation about the long axis y of the other frame, as the ISB defines hip
-and knee (Wu et al. 2002, J Biomech 35, 543-548; Grood & Suntay 1983). Right and left are written alike, as turns about
-the axes of the frames; coordinates of a model have the clinical signs.
+and knee (Wu et al. 2002, J Biomech 35, 543-548; Grood & Suntay 1983). For the shoulder it has YXY, plane of elevation,
+elevation and rotation, and YXZ for the clavicle's joints (Wu et al. 2005, J Biomech 38, 981-992); they are known by
+their names. Right and left are written alike, as turns about the axes of the frames; coordinates of a model have the
+clinical signs.
 
 Where the second angle is near its end, 90 degrees of a sequence of three axes, 0 and 180 of one that ends on its first
 axis, only the sum or difference of the first and third turn is defined: gimbal lock, which a quaternion has not.
@@ -26,6 +28,16 @@ JointAngleForm = Literal[
     "ISB", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ", "quaternion"
 ]
 ISB: TurnSequence = "ZXY"
+ISB_OF_ARM: dict[str, TurnSequence] = {
+    "shoulder": "YXY",
+    "glenohumeral": "YXY",
+    "acromial": "YXY",
+    "thoracohumeral": "YXY",
+    "humerothoracic": "YXY",
+    "sternoclavicular": "YXZ",
+    "acromioclavicular": "YXZ",
+}
+"""Sequences of the ISB that are not `ISB`, by what the joint's name has in it; acromial is OpenSim's shoulder."""
 LOCKED = float(np.radians(0.1))
 """Distance of the second angle from its end [rad] within which first and third have no value."""
 UNSURE = float(np.radians(10.0))
@@ -60,15 +72,22 @@ def joint_rotations(model: Multibody, values: Float[np.ndarray, "t n"]) -> dict[
     return found
 
 
-def joint_angles(rotation: Rotation, form: JointAngleForm) -> JointAngles:
-    """Angles of a rotation over time; NaN for the first and third where they are not defined."""
+def isb_of(joint: str) -> TurnSequence:
+    """Sequence of the ISB for a joint of this name."""
+    return next((own for part, own in ISB_OF_ARM.items() if part in joint.lower()), ISB)
+
+
+def joint_angles(rotation: Rotation, form: JointAngleForm, joint: str = "") -> JointAngles:
+    """Angles of a rotation over time, in the ISB's form by the joint's name; NaN for the first and third where they are
+    not defined.
+    """
     if form == "quaternion":
         four = np.atleast_2d(rotation.as_quat(scalar_first=True))
         four[four[:, 0] < 0.0] *= -1.0
         flips = np.where(np.einsum("ti,ti->t", four[1:], four[:-1]) < 0.0, -1.0, 1.0)
         four[1:] *= np.cumprod(flips)[:, None]
         return JointAngles(dict(zip("wxyz", four.T, strict=True)), np.full(len(four), np.inf))
-    sequence: TurnSequence = ISB if form == "ISB" else form
+    sequence: TurnSequence = isb_of(joint) if form == "ISB" else form
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Gimbal lock", UserWarning)
         three = np.atleast_2d(rotation.as_euler(sequence))

@@ -224,3 +224,11 @@ def test_foam_is_calibrated_and_its_law_goes_on(tmp_path: Path) -> None:
     np.testing.assert_allclose(stance.foot.law.stiffness[-1], said["zone"]["forefoot"]["k"])
     assert 1.0 < stance.force[:, 1].max() / (77.3 * 9.80665) < 1.6
     assert found.vertical.r2 > 0.8
+
+
+@pytest.mark.parametrize("name", ["calibrate", "design"])
+def test_foam_without_damping_has_no_factor(tmp_path: Path, name: str) -> None:
+    foot = written(tmp_path, ('value = 10, unit = "ms"', 'value = 0, unit = "ms"'))
+    given = {"static": TRIAL / "standing.trc", "mass": 77.3, "plates": TRIAL / "plates.mot", "plate": "own_force"}
+    with pytest.raises(gc.InputError, match=r"foot\.toml zone heel: damping, of foam its retardation, is 0"):
+        getattr(gc.prosthesis, name)(TRIAL / "walking.trc", foot=foot, fulcrum=0.1, **given)

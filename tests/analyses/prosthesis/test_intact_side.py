@@ -76,6 +76,7 @@ CASES: dict[str, tuple[Callable[[Path], IntactStep | None], str]] = {
     "no plate under it": (lambda f: found_step(f, away=0.5), "no plate under the intact foot"),
     "markers missing": (lambda f: found_step(f, intact=TRIAL / "walking.trc"), "no marker LSH1"),
     "not while standing": (lambda f: found_step(f, static=TRIAL / "standing.trc"), "no marker LTH1.* while standing"),
+    "aim of no intact step": (lambda f: found_step(f, aim="knee_moment"), "`aim`: .* not computed of a step of the"),
     "two targets": (lambda f: found_step(f, target=0.3), "states already which radius of the roll-over shape"),
     "plate without a trial": (
         lambda f: found_step(f, intact=None, intact_plate="intact_force"),

@@ -10,6 +10,7 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
+from geocontact.analyses.sit_to_stand.calibrate.result import goodness_of_calibration
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import COORDINATES, Subject
@@ -57,8 +58,11 @@ def test_a_shipped_trial_is_found_again_from_a_whole_body(tmp_path: Path) -> Non
     assert [one.task for one in result.spans] == ["standing up"]
 
 
-def walked(folder: Path, belt: float = 0.0) -> dict[str, Any]:
-    """One leg that rolls over its foot in 0.6 s under 600 N, on a belt that takes it backwards."""
+def walked(folder: Path, belt: float = 0.0, shear: float = 0.0, off: float = 0.0) -> dict[str, Any]:
+    """One leg that rolls over its foot in 0.6 s under 600 N, on a belt that takes it backwards.
+
+    `shear` [N] brakes, then pushes; the load is `off` [m] ahead of where it belongs.
+    """
     time = 0.01 * np.arange(140)
     s = np.clip((time - 0.4) / 0.6, 0.0, 1.0)
     q = np.tile([0.4, 0.1, 0.0, 0.2, 0.1, -0.1], (140, 1))
@@ -67,8 +71,9 @@ def walked(folder: Path, belt: float = 0.0) -> dict[str, Any]:
     model = whole_body(SUBJECT)
     write_body(folder, model, time, values_of(model, SUBJECT, q, HEADING, np.zeros((len(q), 3))))
     up = 600.0 * np.sin(np.pi * s) ** 0.5
-    ahead = 0.4 - belt * time - 0.02 + 0.12 * s
-    load = np.column_stack([0.0 * up, up, 0.0 * up, 0.0 * up, 0.0 * up, ahead * up])
+    ahead = 0.4 - belt * time - 0.02 + 0.12 * s + off
+    along = -shear * np.sin(2.0 * np.pi * s)
+    load = np.column_stack([along, up, 0.0 * up, 0.0 * up, 0.0 * up, ahead * up])
     write_plates(folder, time, {"right": load})
     return {"model": folder / "body.osim", "plates": folder / "plates.mot", "feet": "right_force", "leg": "right"}
 
@@ -94,6 +99,35 @@ def test_a_treadmill_that_is_not_named_is_asked_for(tmp_path: Path) -> None:
     given = walked(tmp_path, belt=1.1)
     with pytest.warns(gc.InputWarning, match=r"right_1: the flat foot moves at -1\.10 m/s: on a treadmill give"):
         gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+    with pytest.warns(gc.InputWarning, match=r"right_1: the flat foot moves at -0\.60 m/s: check `belt`, 0\.5 m/s"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given, belt=0.5)
+
+
+def test_stances_without_plates_are_no_study(tmp_path: Path) -> None:
+    given = walked(tmp_path) | {"plates": None, "feet": None}
+    with pytest.warns(gc.InputWarning, match="no study.toml: stances need `plates`"):
+        folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given).write(tmp_path / "out")
+    assert not (folder / "study.toml").exists()
+
+
+@pytest.mark.parametrize("off", [-0.3, 0.4])
+def test_the_plate_of_the_other_foot_is_refused(tmp_path: Path, off: float) -> None:
+    given = walked(tmp_path, off=off)
+    with pytest.raises(gc.InputError, match=r"`feet`: .* m ahead of the right ankle .*the plate of the other foot"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+
+
+def test_a_heavier_leg_leaves_a_lighter_trunk(tmp_path: Path) -> None:
+    """The study of one leg sums up to the model's mass, which `standing_trials` confronts."""
+    given = walked(tmp_path)
+    text = given["model"].read_text(encoding="utf-8")
+    body = text.index('<Body name="thigh_r">')
+    begin, end = text.index("<mass>", body) + 6, text.index("</mass>", body)
+    given["model"].write_text(f"{text[:begin]}{float(text[begin:end]) + 2.0}{text[end:]}", encoding="utf-8")
+    folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given).write(tmp_path / "out")
+    opened(Record("sit-to-stand calibrate", {}))
+    subject = standing_trials(folder / "study.toml", "study").subject
+    assert sum(each.mass for each in subject.segments.values()) == pytest.approx(subject.mass, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -102,7 +136,12 @@ def test_a_treadmill_that_is_not_named_is_asked_for(tmp_path: Path) -> None:
         ({"joints": "hip_flexion,knee_angle"}, "is not three names"),
         ({"joints": "hip,knee_angle,ankle_angle"}, "no coordinate hip_r; there are"),
         ({"feet": "right_force,right_force"}, "names a plate twice"),
-        ({"leg": "right"}, "2 plates are named for one leg"),
+        ({"leg": "right", "chair": None}, "2 plates are named for one leg"),
+        ({"leg": "right"}, "`chair`: has no effect on stances of one leg"),
+        ({"chair": "left_force"}, "left_force is one of `feet` as well"),
+        ({"joints": "ankle_angle,knee_angle,hip_flexion"}, "does not lie below"),
+        ({"joints": "hip_flexion,ankle_angle,knee_angle"}, "does not lie below"),
+        ({"joints": "hip_flexion,hip_flexion,ankle_angle"}, "does not lie below"),
         ({"time": (0.0, 0.05)}, "frames are too few"),
     ],
 )
@@ -122,12 +161,24 @@ def test_a_stance_has_a_study_of_its_own_and_is_not_predicted(tmp_path: Path) ->
         gc.sit_to_stand.calibrate(folder / "both.toml")
 
 
+@pytest.mark.parametrize("shear", [80.0, -80.0])
+def test_a_stance_that_pushes_before_it_brakes_is_doubted(tmp_path: Path, shear: float) -> None:
+    folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path, shear=shear)).write(tmp_path / "out")
+    record = opened(Record("sit-to-stand calibrate", {}))
+    standing_trials(folder / "study.toml", "study")
+    said = any("it pushes along the walk before it brakes" in line for line in record.warnings)
+    assert said == (shear < 0.0)
+
+
 @pytest.mark.slow
 def test_a_stance_is_calibrated_to_files(tmp_path: Path) -> None:
     """Solved and certified; its motion, loads and model are those of one leg."""
     folder = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path)).write(tmp_path / "out")
     found = gc.sit_to_stand.calibrate(folder / "study.toml", nodes=40, resamples=0)
     assert found.found.solved and all(trial.certified for trial in found.trials)
+    assert any("noise is the one sit-to-stand coordinates writes, invented" in line for line in found.warnings)
+    assert "ground reaction" not in found.sentences[0] and "test nothing" in found.sentences[1]
+    assert not any("force" in name or "centre" in name for name in goodness_of_calibration(found).tested)
     assert found.trials[0].model.q.shape[1] == 5
     written = found.write(tmp_path / "cal")
     assert read_table(written / "coordinates_right_1.mot").channels == COORDINATES[:5]

@@ -85,6 +85,15 @@ def test_a_passive_trial_needs_no_motors(tmp_path: Path, numbers: Path) -> None:
     np.testing.assert_array_equal(torque[:, :3], shipped.trials[0].torque[:, :3])  # type: ignore[index]
 
 
+def test_a_device_that_is_set_to_a_man_is_not_a_womans(tmp_path: Path, numbers: Path) -> None:
+    """`sit-to-stand device` identifies with a man's lengths: other ones would turn its sums into wrong bodies."""
+    study = study_of(tmp_path, 'mode = "passive"', f'device = "{numbers}"', tail='\n[person]\nsex = "female"\n')
+    with pytest.raises(
+        gc.InputError, match=r"lengths of a man of that height, from which \[person\] differs by 52\.\d mm"
+    ):
+        read(study)
+
+
 def test_a_mode_without_torques_is_warned_of(tmp_path: Path) -> None:
     tracks = 'tracks = ["coordinates", "rates", "force", "centre", "strap"]'
     given, warned = read(study_of(tmp_path, 'mode = "passive"', tracks))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
-from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial
+from geocontact.below_knee_prosthesis.design.drawn import RecordedTrial, without_map_error
 from geocontact.below_knee_prosthesis.design.knob import AIMS, RESPONSES, Knob
 from geocontact.below_knee_prosthesis.design.outcomes import outcomes
 from geocontact.below_knee_prosthesis.design.varied import varied_foot
@@ -41,3 +41,9 @@ def test_draws_lie_about_the_foot_as_it_is() -> None:
             assert drawn == pytest.approx(outcomes(shape)[aim], rel=0.15)
     names = [each.name for each in found.hangs_on]
     assert {"fulcrum", "alignment", "stiffness", "pitch", "load"} <= set(names)
+
+
+def test_aims_without_an_error_of_the_map_are_known() -> None:
+    """Nothing was measured of knee, hip, metabolic cost and landing: `design` says so where one of them is aimed at."""
+    lacking = {aim for aim in AIMS if without_map_error(aim)}
+    assert lacking == {"loading_rate", "knee_moment", "knee_mean", "hip_moment", "hip_mean", "metabolic"}

@@ -44,7 +44,8 @@ class IkOptions(Options):
         x forward, y up and z to the right in both. May be given again.
     joint_angles
         Write the angles of joints that turn about several axes in this form as well: ISB (ZXY: flexion, adduction,
-        rotation), another sequence of the turned axes of the joint's frames such as XYZ, or quaternion.
+        rotation; by its name, of a shoulder YXY), another sequence of the turned axes of the joint's frames such as
+        XYZ, or quaternion.
     events
         Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
         be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.

@@ -11,7 +11,7 @@ from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.ranges import TURNS
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, require_factors
 from geocontact.analyses.prosthesis.stance_files import counted_twice
 from geocontact.below_knee_prosthesis.calibration.calibrate import SoleCalibration, calibrate
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import (
@@ -80,6 +80,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
         foot = foot_of(o.foot)
         fulcrum_at(foot, o.setting, o.fulcrum)
         foot = foot_with_law(foot, o.law)
+        require_factors(foot, o.foot, o.law)
     first = AskedStance("", o.markers, o.static, o.plates, o.plate, o.other_plate, o.setting, o.fulcrum)
     more = further_stances(o)
     asked = [replace(first, name=FIRST) if more else first, *more]

@@ -86,8 +86,8 @@ class ProsthesisDesignOptions(Options):
     target
         Desired value of the aim instead [N m, J, m or N/s].
     intact
-        Walking trial with a step of the intact foot; as near as can be to what it has is wanted then, of peak ankle
-        moment, radius and rate of loading. The standing trial shows the intact leg as well.
+        Walking trial with a step of the intact foot; as near as can be to what it has is wanted then, of peak and
+        mean ankle moment, radius and rate of loading. The standing trial shows the intact leg as well.
     intact_plates
         Ground reactions of that trial; those of the prosthetic foot's by default.
     intact_plate

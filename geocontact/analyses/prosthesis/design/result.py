@@ -45,6 +45,7 @@ from geocontact.analyses.prosthesis.design.sweep import (
 from geocontact.analyses.prosthesis.design.trial import FootAndTrial, read, varied
 from geocontact.analyses.prosthesis.stance_files import numbers_table, offset_words
 from geocontact.below_knee_prosthesis.design.choice import FootChoice
+from geocontact.below_knee_prosthesis.design.drawn import without_map_error
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Response
@@ -206,6 +207,8 @@ def _reserve(r: ProsthesisDesignResult) -> None:
     reserve(_words_of_torques(r))
     if r.intact is not None:
         reserve(OF_ONE_STEP)
+    if without_map_error(r.options.aim):
+        reserve(f"the map's error in {MEASURES[r.options.aim].words} was not measured: its bands include none")
     reserve("bands are for one trial: they do not include the variation from step to step")
     if knob.vary != "alignment" and r.fits:
         reserve(f"the best {knob.vary} is computed with the recorded load; only the bands include how the load changes")

@@ -13,7 +13,7 @@ from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.frame.withheld import CONTRADICTED
 from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
-from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law
+from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, require_factors
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_intact_leg
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance, stance_on_plate
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
@@ -55,6 +55,7 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
         foot = foot_of(o.foot)
         fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
         foot = foot_with_law(foot, o.law)
+        require_factors(foot, o.foot, o.law)
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     plate = lab.stance(own, o.plates)
@@ -117,6 +118,9 @@ def intact_side(o: ProsthesisDesignOptions, trial: RecordedTrial) -> IntactStep 
     """The step that is named; None where none is."""
     if o.intact is None:
         return None
+    if o.target is None and o.aim not in OF_INTACT:
+        what = f"{MEASURES[o.aim].words} is not computed of a step of the intact foot"
+        raise InputError("", "`aim`", what, f"take {', '.join(OF_INTACT)}, or give its `target`")
     if o.target is not None and o.aim in OF_INTACT:
         what = f"`intact` states already which {MEASURES[o.aim].words} is wanted"
         raise InputError("", "`target`", what, "give one of them")

@@ -85,7 +85,8 @@ class ProsthesisWalkOptions(Options):
         Longest time for which a coordinate may be unknown [s].
     joint_angles
         Form of the angles in angles.csv, of joints that turn about several axes: ISB (ZXY: flexion, adduction,
-        rotation), another sequence of the turned axes of the joint's frames such as XYZ, or quaternion.
+        rotation; by its name, of a shoulder YXY), another sequence of the turned axes of the joint's frames such as
+        XYZ, or quaternion.
     machine_code
         Compile the equations first: the first run takes half a minute longer, later runs are faster.
     markers_map

@@ -14,9 +14,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
 import pandas as pd
 
-from geocontact.analyses.frame.collector import judge, listener, note, say
+from geocontact.analyses.frame.collector import judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
@@ -56,12 +57,17 @@ from geocontact.dynamics.collocation.solve import CollocationResult
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit
 from geocontact.standing_up.calibrated_phase import CalibratedPhase
 from geocontact.standing_up.calibration import calibrated_trials, calibration_numbers
+from geocontact.standing_up.stance import SIZES
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingUpTrials
 from geocontact.view.curves.declared import CurveSheet
 
 if TYPE_CHECKING:
     from geocontact.view.page.content import Page
+
+
+PUT_IN = ("force", "centre")
+"""Channels of a stance that the load of the rest of the body returns (`stance.load_of_the_rest`)."""
 
 
 def read(o: StandingCalibrateOptions) -> StandingUpTrials:
@@ -186,8 +192,9 @@ def run(given: StandingUpTrials, o: StandingCalibrateOptions) -> StandingCalibra
 
 
 def goodness_of_calibration(r: StandingCalibrateResult) -> GoodnessOfFit:
-    """Channels against their noise, and parameters that are on a bound."""
-    fit = goodness_of_trials(r.trials, r.given.noise, r.given.tracks)
+    """Channels against their noise, and parameters that are on a bound; not what the plate puts into a stance."""
+    put_in = PUT_IN if r.given.one_leg else ()
+    fit = goodness_of_trials(r.trials, r.given.noise, [name for name in r.given.tracks if name not in put_in])
     bound = [n.name for phase in r.phases for n in phase.numbers.numbers if n.verdict == "on its bound"]
     doubts = [Doubt(f"{name} is on the bound of its search", False) for name in dict.fromkeys(bound)]
     return replace(fit, doubts=(*fit.doubts, *doubts))
@@ -208,12 +215,18 @@ def _report(r: StandingCalibrateResult) -> None:
     on_plates = [
         f"{what} within {worst[name]:.1f} {unit}, "
         for name, what, unit in (("force", "ground reaction", "N"), ("centre", "centre of pressure", "mm"))
-        if name in r.given.tracks
+        if name in r.given.tracks and not r.given.one_leg
     ]
     say(
         f"{counted(len(r.trials), 'trial')}: {''.join(on_plates)}angles within {angle:.2f}°{also} "
         "(largest RMSD of a trial)"
     )
+    if all(np.isclose(getattr(r.given.noise, name), size) for name, size in SIZES.items()):
+        reserve(
+            "the noise is the one sit-to-stand coordinates writes, invented; the test of fit rests on it: give your own"
+        )
+    if r.given.one_leg:
+        say("the plate's load is put in: force and centre of pressure test nothing")
     if r.found.solved and fit.outcome != "contradicts":
         seen = [each for phase in r.phases for each in phase.motions]
         passed = sum(each.certificate is not None and each.certificate.converged for each in seen)

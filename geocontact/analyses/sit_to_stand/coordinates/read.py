@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordin
 from geocontact.analyses.sit_to_stand.standing_trials import FEWEST, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
@@ -99,12 +101,16 @@ def _plates(
     plates = turned_plates(read_force_plates(file, o.c3d_unit), turn, file)
     add_input("`plates`", file, plates=len(plates))
     names = [name.strip() for name in feet.split(",")]
+    if o.leg != "both" and o.chair is not None:
+        raise InputError("", "`chair`", "has no effect on stances of one leg", "leave it out")
     if o.leg != "both" and len(names) > 1:
         raise InputError("", "`feet`", f"{len(names)} plates are named for one leg", "name that of its foot")
     if len(set(names)) < len(names):
         raise InputError("", "`feet`", f"{feet} names a plate twice", "name each plate once")
     under = [plate_named(plates, name, file, "`feet`") for name in names]
     seat = [] if o.chair is None else [plate_named(plates, o.chair, file, "`chair`")]
+    if any(plate is each for plate in seat for each in under):
+        raise InputError("", "`chair`", f"{o.chair} is one of `feet` as well", "name each plate once")
     for plate in (*under, *seat):
         require_one_clock(file, plate, time)
     return under, seat
@@ -129,4 +135,21 @@ def _legs(model: Multibody, o: StandingCoordinatesOptions) -> dict[str, BodyLeg]
             if f"{stem}_{side[0]}" not in of:
                 what = f"no coordinate {stem}_{side[0]}; there are {listed(tuple(of))}"
                 raise InputError(o.model, "", what, "name those of hip, knee and ankle as `joints`")
-    return {side: BodyLeg(*(of[f"{stem}_{side[0]}"] for stem in stems)) for side in SIDES}
+    found = {side: BodyLeg(*(of[f"{stem}_{side[0]}"] for stem in stems)) for side in SIDES}
+    for leg in found.values():
+        down = (leg.hip, leg.knee, leg.ankle)
+        for upper, lower in pairwise(down):
+            if upper is lower or upper.child not in _above(model, lower):
+                what = f"{lower.name} does not lie below {upper.name}"
+                raise InputError("", "`joints`", what, "name hip, knee and ankle, in this order")
+    return found
+
+
+def _above(model: Multibody, joint: JointModel) -> set[str]:
+    """Bodies from a joint's parent up to the ground."""
+    parents = {each.child: each.parent for each in model.joints}
+    found, body = set(), joint.parent
+    while body not in found:
+        found.add(body)
+        body = parents.get(body, body)
+    return found

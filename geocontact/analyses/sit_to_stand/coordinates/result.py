@@ -33,7 +33,7 @@ from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.movements import TASKS, hip_height, movements_of
 from geocontact.standing_up.person_segments import SHARES
-from geocontact.standing_up.stance import JERK, SIZES, smooth, stances
+from geocontact.standing_up.stance import JERK, SIZES, off_the_foot, smooth, stances
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade
 from geocontact.view.page.content import Section
 from geocontact.view.page.tables import frame_table
@@ -151,7 +151,8 @@ class StandingCoordinatesResult(Result):
                 values += [load[:, :3], np.zeros((len(load), 3)), load[:, 3:]]
             title = "Loads in the plane, moments about its origin"
             write_storage(folder / "plates.mot", self.given.clock, names, np.hstack(values), title=title, degrees=False)
-        (folder / STUDY).write_text(self.study_toml(), encoding="utf-8")
+        if self.spans:
+            (folder / STUDY).write_text(self.study_toml(), encoding="utf-8")
         super().write_files(folder)
 
     def study_toml(self) -> str:
@@ -193,11 +194,17 @@ def _spans(given: PlanarRecording, height: float, o: StandingCoordinatesOptions)
             return _movements(given, height)
         if given.feet is None or given.clock is None:
             return ()
-        up = np.interp(given.time, given.clock, given.feet[:, 1])
-        low = smooth(given.time, np.column_stack([up, given.moved.q[:, 2]]))
+        up, about = (np.interp(given.time, given.clock, given.feet[:, k]) for k in (1, 5))
+        low = smooth(given.time, np.column_stack([up, given.moved.q[:, 2], about]))
     except ValueError as error:
         raise InputError(o.motion, "", str(error), "give a longer recording") from error
     found = stances(given.time, low[:, 0], low[:, 1], FEWEST)
+    for start, end in found:
+        inside = (given.time >= start) & (given.time <= end)
+        off = off_the_foot(low[inside, 2] / low[inside, 0], given.moved.q[inside, 0])
+        if off is not None:
+            what = f"from {start:.2f} to {end:.2f} s the load is {off:.2f} m ahead of the {o.leg} ankle (median)"
+            raise InputError(o.plates or "", "`feet`", what, "is it the plate of the other foot?")
     return tuple(TaskSpan(f"{o.leg}_{k}", "stance", *span) for k, span in enumerate(found, 1))
 
 
@@ -236,9 +243,8 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     if result.spans:
         say(f"{counted(len(result.spans), 'trial')}: {', '.join(f'{one.task} {one.name}' for one in result.spans)}")
     else:
-        reserve(
-            f"{STUDY} has no trial: {'no whole stance is on its plate' if o.leg != 'both' else 'no movement found'}"
-        )
+        why = "no movement found" if o.leg == "both" else "no whole stance is on its plate"
+        reserve(f"no {STUDY}: {'stances need `plates`' if o.leg != 'both' and given.feet is None else why}")
     note("out_of_plane_deg", dict(zip(out["of"], out["rms"], strict=True)))
     return result
 
@@ -250,7 +256,9 @@ def _doubt_sliding(r: StandingCoordinatesResult, one: TaskSpan) -> None:
         return
     speed = float(np.polyfit(r.time[inside], r.given.moved.q[inside, 0], 1)[0])
     if abs(speed) > SLIDING:
-        reserve(f"{one.name}: the flat foot moves at {speed:.2f} m/s: on a treadmill give the speed of its `belt`")
+        given = r.options.belt
+        remedy = f"check `belt`, {given:g} m/s" if given else "on a treadmill give the speed of its `belt`"
+        reserve(f"{one.name}: the flat foot moves at {speed:.2f} m/s: {remedy}")
 
 
 coordinates = Job("sit-to-stand coordinates", StandingCoordinatesOptions, read, run)
