@@ -7,7 +7,8 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve
-from geocontact.data.multibody.joint_angles import UNSURE, JointAngleForm, joint_angles, joint_rotations
+from geocontact.data.multibody.joint_angle_forms import JointAngleForm
+from geocontact.data.multibody.joint_angles import UNSURE, joint_angles, joint_rotations
 from geocontact.data.multibody.model import Multibody
 
 

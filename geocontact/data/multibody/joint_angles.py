@@ -15,18 +15,14 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
+from geocontact.data.multibody.joint_angle_forms import JointAngleForm, TurnSequence
 from geocontact.data.multibody.model import Multibody
 
-TurnSequence = Literal["XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ"]
-JointAngleForm = Literal[
-    "ISB", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ", "quaternion"
-]
 ISB: TurnSequence = "ZXY"
 ISB_OF_ARM: dict[str, TurnSequence] = {
     "shoulder": "YXY",

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart
-from geocontact.data.multibody.joint_angles import JointAngleForm
+from geocontact.data.multibody.joint_angle_forms import JointAngleForm
 from geocontact.data.plausible import GAP
 
 

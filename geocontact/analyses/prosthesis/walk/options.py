@@ -17,7 +17,7 @@ from geocontact.analyses.prosthesis.ranges import (
     require_one_residual,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.joint_angles import JointAngleForm
+from geocontact.data.multibody.joint_angle_forms import JointAngleForm
 from geocontact.data.plausible import CUTOFF, GAP
 
 
