@@ -17,6 +17,7 @@ from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
 from geocontact.effects.catalogue import candidates
 from geocontact.systems import shoulder as shoulder_exoskeleton
+from geocontact.systems import shoulder_motion
 from geocontact.systems.shoulder_motion import GRAVITY, MOST, SHORTEST
 from tests.systems.examples import SHOULDER_CONSTANTS, recording, shoulder, shoulder_trial, support
 
@@ -104,7 +105,7 @@ def test_steps_are_of_fourth_order() -> None:
 
 
 def test_an_arm_that_runs_away_is_not_followed_for_ever() -> None:
-    """A damper that feeds energy, along an uneven clock: steps as short as what an interval left of the one before."""
+    """A damper that feeds energy, along an uneven clock; no interval begins with what is left of the last one."""
     time = np.cumsum(np.random.default_rng(1).uniform(0.016, 0.048, 300))
     nothing = np.full(time.size, np.nan)
     columns = {"arm": np.array([raised(t) for t in time]), "event": np.zeros(time.size)}
@@ -113,6 +114,9 @@ def test_an_arm_that_runs_away_is_not_followed_for_ever() -> None:
         shoulder().demand(thrown, {**VALUES, "b_t": -30.0})
     longest = max(len(path) for path in shoulder_exoskeleton._STEPS.values())
     assert longest <= 2 + MOST * (time.size + np.ptp(time) / SHORTEST)
+    path = max(shoulder_exoskeleton._STEPS.values(), key=len)
+    first = path[1:][path[:-1, shoulder_motion.SAMPLE] >= 0.0]
+    assert first[:, shoulder_motion.STATE + shoulder_motion.STEP].min() >= 0.5 * SHORTEST
 
 
 def pendulum(c: float) -> tuple[System, Trial, np.ndarray]:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
+from scipy.stats import t
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.consent import foreign
@@ -117,9 +118,9 @@ def doubt_numbers(case: GapCase, file: Path) -> None:
 
 FEWEST = 10
 """Samples of a channel."""
-GAIN, WIDER, FEW = 0.15, 4.0, 3
-"""Logarithm of a gain that a trial has beside the others, times the spread of theirs, and how many others there are:
-donning, placement and what a model lacks move all gains of the practice cases by less."""
+GAIN, CHANCE, FEW = 0.15, 0.01, 3
+"""Logarithm of a gain that a trial has beside the others, which donning, placement and what a model lacks do not reach
+in the practice cases; chance that any trial of a case reaches what is named, if gains are normal; least others."""
 BETTER = 0.5
 """Share of a trial's error that stays with its own gain, from which on something else than a gain is wrong."""
 
@@ -128,11 +129,17 @@ def odd_gains(
     channel: str,
     measured: Mapping[str, Float[np.ndarray, " _"]],
     predicted: Mapping[str, Float[np.ndarray, " _"]],
+    channels: int = 1,
 ) -> list[str]:
     """Trials of which a channel is a multiple of what a model predicts, as it is in no other trial, in words.
 
     The gain of a trial minimises the squared distance of its samples from as many times the prediction. Both are by
     the name of the trial, in the channel's unit, NaN where nothing was measured.
+
+    A gain is named beyond the prediction interval of one more value after those of the others (Hahn and Meeker,
+    Statistical Intervals, 1991), over all trials and `channels` (Bonferroni). With four trials
+    and one channel that is 23 times the spread of the other three, with six trials 7 times that of five: a trial among
+    few is named where the others agree.
     """
     gains, known = {}, {}
     for name, values in measured.items():
@@ -145,10 +152,11 @@ def odd_gains(
         others = np.array([each for other, each in gains.items() if other != name])
         if len(others) < FEW:
             continue
-        usual, spread = float(np.median(others)), float(np.std(others, ddof=1))
+        usual, m = float(np.mean(others)), len(others)
+        wide = float(t.ppf(1.0 - CHANCE / (2 * len(gains) * channels), m - 1) * np.std(others, ddof=1))
         own, model = known[name]
         with_own, with_usual = (float(np.linalg.norm(own - np.exp(each) * model)) for each in (gain, usual))
-        if abs(gain - usual) > max(GAIN, WIDER * spread) and with_own < BETTER * with_usual:
+        if abs(gain - usual) > max(GAIN, wide * np.sqrt(1.0 + 1.0 / m)) and with_own < BETTER * with_usual:
             low, high = np.exp([others.min() - usual, others.max() - usual])
             times = f"{np.exp(gain - usual):.2f} times as large beside the model as in the others"
             what = f"trial {name}: {channel} is {times} ({low:.2f} to {high:.2f})"

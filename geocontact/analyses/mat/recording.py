@@ -14,7 +14,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.bodies import read_body_motion
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
-from geocontact.analyses.mat.goodness import goodness_of_cells, odd_cells
+from geocontact.analyses.mat.goodness import beyond_saturation, goodness_of_cells, odd_cells, one_top
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import blocks
@@ -24,16 +24,12 @@ from geocontact.geometry.register.landmarks import poses_at
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mats.catalogue import read_mat, read_shear_grid
 from geocontact.io.mats.layout import read_layout
-from geocontact.io.text.units import DIMENSIONS
 from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
 from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
 from geocontact.trial_checks.channel_checks import odd_rate
 
-STOPS, STOPPED = 5, 3  # frames in which a cell reads the largest value of all, and cells that do: noise differs
-PART = 0.05  # of the pressed samples that are below that value; one pressure everywhere is no range that ends
 NAMED = 8  # cells in a warning; run.json has them all
 MM2 = 1e6
-BEYOND = 1.1  # times the end of the cells' range that a cell reads; amplifiers and rounding add per cents
 
 Way = Literal["warn", "mask", "fill"]
 
@@ -303,48 +299,19 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
     return found[0], found[1]
 
 
-def _reserve_one_top(seen: PreparedFrames) -> None:
-    """A warning where several cells stop at one and the same largest value, below the stated saturation."""
-    pressure = _working(seen.read, 0.0)
-    top = float(pressure.max(initial=0.0))
-    stopped = ((pressure == top).sum(axis=0) >= STOPS).sum()
-    between = ((pressure > 0.0) & (pressure < top)).sum() > PART * (pressure > 0.0).sum()
-    if 0.0 < top < seen.read.saturation and stopped >= STOPPED and between:
-        what = f"{stopped} cells stop at one value, {top * 1e-3:.4g} kPa, the largest of all"
-        reserve(f"{what}: if that is where they clip, give it in the layout as saturation_kPa; forces are too low")
-
-
-def _reserve_beyond(read: PressureFrames) -> None:
-    """A warning for cells that read more than the stated end of their range: numbers are in another unit than stated.
-
-    A cell that clips reads that end. Units are named in which the largest would be within it.
-    """
-    top = float(np.nanmax(read.pressure, initial=0.0))
-    if not np.isfinite(read.saturation) or top <= BEYOND * read.saturation:
-        return
-    what = f"{read.name}: a cell reads {top * 1e-3:.4g} kPa, and cells end at {read.saturation * 1e-3:.4g} kPa"
-    within = [
-        f"{top * DIMENSIONS['Pa'][unit] * 1e-6:.4g} kPa if they are in {unit}"
-        for unit in ("mmHg", "Pa")
-        if top * DIMENSIONS["Pa"][unit] * 1e-3 <= read.saturation
-    ]
-    meant = f"are the pressures in the unit that is stated ({', '.join(within)})" if within else "is the unit right"
-    reserve(f"{what}: {meant}, or is saturation_kPa another one?")
-
-
 def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     frames, clipping = seen.frames, seen.saturated
-    _reserve_beyond(seen.read)
     judge(goodness_of_cells(frames, clipping), warned=True)
-    odd = list(odd_cells(seen.read, o.touched, o.gate))
-    for line in odd:
+    beyond = list(beyond_saturation(seen.read))
+    for line in (*beyond, *odd_cells(seen.read, o.touched, o.gate)):
         reserve(line)
-    if clipping.any() and not any("beyond the saturation" in line for line in odd):
+    if clipping.any() and not beyond:
         cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
         reserve(
             f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
         )
-    _reserve_one_top(seen)
+    for line in one_top(seen.read):
+        reserve(line)
     dead = int((~frames.valid).sum())
     if dead:
         say(f"{dead} of {frames.valid.size} places of the grid have no working cell")
@@ -419,15 +386,7 @@ def followed(seen: PreparedFrames, motion: Motion | None, o: MatOptions) -> tupl
         reserve(f"{left_out} of {len(time)} frames are left out, they have no pose: {span}")
     poses = poses_at(motion.time, motion.poses, np.clip(time[inside], low, high))
     frame = o.frame or _name(o)
-    note(
-        "motion",
-        {
-            "source": motion.source,
-            "frame": frame,
-            "poses": len(motion),
-            "frames_left_out": left_out,
-        },
-    )
+    note("motion", {"source": motion.source, "frame": frame, "poses": len(motion), "frames_left_out": left_out})
     chosen = replace(seen, frames=_only(seen.frames, inside), read=_only(seen.read, inside))
     return chosen, Travel(poses, frame)
 

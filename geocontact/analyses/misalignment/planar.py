@@ -58,7 +58,7 @@ def axis_drift(told: Path | Mapping[str, tuple[float, ...]] | None, span: tuple[
 
 
 TRAVEL = (0.3e-3, 0.06)
-"""m; axes of elbows move by a few mm, instant centres of knees by 20 to 40 (Smidt 1973, J Biomech 6, 79-92)."""
+"""m; limits of this command, not of a source: axes of elbows move by a few mm, instant centres of knees by more."""
 
 
 def _doubt_travel(drift: AxisDrift, span: tuple[float, float], file: str) -> None:
@@ -67,7 +67,8 @@ def _doubt_travel(drift: AxisDrift, span: tuple[float, float], file: str) -> Non
     x, y = drift.at(beta).T
     way = float(max(np.ptp(x), np.ptp(y)))
     if 0.0 < way < TRAVEL[0] or way > TRAVEL[1]:
-        what = f"the axis moves by {1e3 * way:.3g} mm over the range; joints' axes move by 1 to 50"
+        least, most = (1e3 * each for each in TRAVEL)
+        what = f"the axis moves by {1e3 * way:.3g} mm over the range; {least:g} to {most:g} are expected of joints"
         reserve(f"{file}`drift`: {what}: is it in mm, not in m, over angles in their unit, and no row wrong?")
 
 

@@ -26,10 +26,10 @@ THICK, ROUND = 0.3, 0.8
 """Distance of the points from a plane beside their spread along it, root mean squares: doubtful; no plane at all."""
 FEW = 0.7
 """Share of inliers below which the patch may be another one."""
-INNER, EDGE = 0.5, 0.08
+INNER, EDGE, BEYOND = 0.5, 0.08, 1.5
 """Share of a sphere's points, the nearest to the middle of the patch, whose radius is compared with that of all; and
-the share of it by which the two then differ. Ellipsoids with axes that differ by 10 % reach 0.065, caps of 30 to 80
-degrees with a rim of a sixth of the radius 0.14 to 0.44."""
+the share of it by which the two then differ, and times their 95 % intervals. Ellipsoids with axes that differ by 10 %
+reach 0.065, caps of 30 to 80 degrees with a rim of a sixth of the radius 0.14 to 0.44."""
 
 OPPOSITE, OTHER_SIDE = -0.5, 0.05
 """Cosine between a face's normal and that of the shape, below which it looks the other way; and the share of the area
@@ -88,7 +88,11 @@ def _interval(fit: ShapeFit) -> tuple[float, float]:
 
 
 def _of_edge(name: str, sphere: ShapeFit, points: Float[np.ndarray, "n 3"]) -> Iterable[Doubt]:
-    """The radius of all points against that of the inner half, without whatever surrounds it."""
+    """The radius of all points against that of the inner half, without whatever surrounds it.
+
+    Curvatures are compared: their error, the interval's half over the radius squared, is as symmetric for a shallow cap
+    as that of its depth. An inner half that a plane describes as well has no radius.
+    """
     offset = points - sphere.point
     way = offset / np.linalg.norm(offset, axis=1)[:, None]
     nearness = way @ way.mean(axis=0)
@@ -97,9 +101,11 @@ def _of_edge(name: str, sphere: ShapeFit, points: Float[np.ndarray, "n 3"]) -> I
         inner = fit_sphere(np.ascontiguousarray(inside))
     except ValueError:  # too few points, or all in one plane
         return
-    (low, high), (least, most) = _interval(sphere), _interval(inner)
     radius, own = sphere.radius or np.inf, inner.radius or np.inf
-    if abs(own - radius) <= EDGE * radius or (low <= most and least <= high):
+    known = sum(0.5 * float(np.diff(_interval(each))[0]) / (each.radius or np.inf) ** 2 for each in (sphere, inner))
+    if abs(own - radius) <= EDGE * radius or abs(1.0 / own - 1.0 / radius) <= BEYOND * known:
+        return
+    if any(_of_curved(name, inner, own, inside)):
         return
     said = f"{name}: radius {1e3 * radius:.2f} mm, and {1e3 * own:.2f} mm by the inner half of the points"
     remedy = "is a rim, lip or neck among the faces? choose those of the sphere with `region`"

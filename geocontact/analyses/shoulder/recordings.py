@@ -141,9 +141,8 @@ def tool_runs(file: Path, threshold: float, time: Float[np.ndarray, " t"]) -> Bo
         Current from which the tool counts as running [A], for a file with a column `current [A]`.
     """
     table, current, binary = _current(file)
-    if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
-        reserve(f"{file} `tool`: {doubt}")
     if not binary:
+        _doubt_size(file, current)
         _doubt_clock(file, table.time, time)
     on = current > (0.5 if binary else threshold)
     add_input("`tool`", file, samples=len(table.time))
@@ -174,6 +173,11 @@ COVERED = 0.5
 """Share of the markers' time that the tool's recording has to cover."""
 
 
+def _doubt_size(file: Path, current: Float[np.ndarray, " s"]) -> None:
+    if doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0))):
+        reserve(f"{file} `tool`: {doubt}")
+
+
 def _doubt_clock(file: Path, own: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"]) -> None:
     """A warning for samples that are too rare or lack, and for a recording of the tool beside that of the markers."""
     for odd in odd_rate(str(file), "", own):
@@ -186,9 +190,9 @@ def _doubt_clock(file: Path, own: Float[np.ndarray, " s"], time: Float[np.ndarra
 def tool_current(file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
     """Current of the tool at these times [A], as far as the file goes; that of events is 0 or `RUNNING`."""
     table, current, binary = _current(file)
-    _doubt_clock(file, table.time, time)
-    if not binary and (doubt := TOOL.doubt(float(np.nanmax(np.abs(current), initial=0.0)))):
-        reserve(f"{file} `tool`: {doubt}")
+    if not binary:
+        _doubt_size(file, current)
+        _doubt_clock(file, table.time, time)
     if np.nanmax(current, initial=0.0) < TURNED * -np.nanmin(current, initial=0.0):
         reserve(f"{file} `tool`: its current is down to {np.nanmin(current):.3g} A: is its sign turned?")
     add_input("`tool`", file, samples=len(table.time))

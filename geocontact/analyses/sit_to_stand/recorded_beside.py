@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.multibody.model import Multibody
-from geocontact.identify.signals.agreement import clock_words, lag_of
+from geocontact.identify.signals.agreement import clock_words, lag_of, likely_cause
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.standing_up.chain import JOINTS, leg_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
@@ -20,8 +20,7 @@ from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
 HINGES = (*JOINTS, *EXO_JOINTS)
 """Joints, and hinges beside them, in the order of a file of torques."""
 MISSED, MOST = 0.3, 20.0
-"""Of the torque that the ground asks for, and N m, both root mean square: from where the recorded one is another. In
-ten synthetic trials they are 3 to 6 % apart."""
+"""Of the torque that the ground asks for, and N m, both root mean square: from where the recorded one is another."""
 ONE_LEG = (0.4, 0.6)
 """Of that torque, which one of two legs makes."""
 STRAPPED, SMALLER, LARGER = 5.0, 0.15, 6.0
@@ -39,7 +38,9 @@ def doubt_torques(name: str, file: Path, chain: Multibody, trial: StandingTrial)
         return
     asked = torques_by_ground(chain, trial.q, trial.force, trial.centre)
     given = trial.torque[:, :3] + (trial.torque[:, 3:] if trial.torque.shape[1] > 3 else 0.0)
-    off, size = (np.sqrt(np.mean(each**2, axis=0)) for each in (given - asked, asked))
+    there = np.isfinite(given)
+    given, asked = np.where(there, given, 0.0), np.where(there, asked, 0.0)  # samples that nobody measured
+    off, size = (np.sqrt(np.sum(each**2, axis=0) / np.fmax(there.sum(axis=0), 1)) for each in (given - asked, asked))
     missed = [k for k in range(len(JOINTS)) if off[k] > max(MISSED * size[k], MOST)]
     if not missed:
         return
@@ -51,6 +52,8 @@ def doubt_torques(name: str, file: Path, chain: Multibody, trial: StandingTrial)
         why = "are they of one leg?"
     elif (np.abs(parts) < 0.05).all():
         why = "are they in N m, and not for each kg of the body?"
+    elif any(unit := [likely_cause(asked[:, k], given[:, k]) for k in missed]):
+        why = next(each for each in unit if each).lstrip(";: ")
     else:
         why = "are they of this trial, of these joints, and those of the exoskeleton in their sign?"
     reserve(f"{name}: {file} is off the torques that ground reaction and coordinates ask for, rms: {named}; {why}")

@@ -132,10 +132,11 @@ def test_on_a_thigh_it_is_the_sum_over_the_written_cells(tmp_path: Path) -> None
 def test_shear_is_carried_along_with_the_segment(tmp_path: Path) -> None:
     """Half of the frames have a pose; about a point of the other frame."""
     table = pd.read_csv(THIGH / "frames.csv", comment="#").astype(float)
-    table.iloc[:, 1:] *= 0.3
-    file = tmp_path / "shear.csv"
-    table.to_csv(file, index=False)
-    files = {"shear_rows": file, "shear_columns": file}
+    files = {}
+    for option in ("shear_rows", "shear_columns"):
+        table.iloc[:, 1:] *= 0.3
+        files[option] = tmp_path / f"{option}.csv"
+        table.to_csv(files[option], index=False)
     still = shipped(**files).table("shear").set_index("time [s]")
     moving = shipped(**files, point="100,900,-50", motion=poses(tmp_path, 0.5, 1.0, 2.0)).table("shear")
     here = still.loc[moving["time [s]"]]

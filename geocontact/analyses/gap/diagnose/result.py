@@ -166,7 +166,8 @@ def gain_doubts(found: Findings) -> list[str]:
     for c, channel in enumerate(problem.system.outputs):
         measured = {trial.name: values[:, c] for trial, values in zip(trials, outputs, strict=True)}
         off = {trial.name: values[:, c] for trial, values in zip(trials, model.residuals, strict=True)}
-        said += odd_gains(channel, measured, {name: values - off[name] for name, values in measured.items()})
+        predicted = {name: values - off[name] for name, values in measured.items()}
+        said += odd_gains(channel, measured, predicted, len(problem.system.outputs))
     return said
 
 
