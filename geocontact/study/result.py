@@ -34,7 +34,7 @@ from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
-from geocontact.study.clean_up import not_asked_for, note_asked, size_in_words
+from geocontact.study.clean_up import clear, not_asked_for, note_asked, size_in_words
 from geocontact.study.curves import StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.graph import StepState, graph_picture, in_words, step_states
@@ -350,7 +350,7 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
         total = sum(one.missing * (one.seconds or 0.0) for one in states)
         say(f"all of it: about {in_words(total)} of work, shared by the workers")
     known = all(one.state == DONE for one in plan.evaluations)  # else some may still be those of later steps
-    if known and (left := not_asked_for(store, planned.file.path, {one.address for one in plan.evaluations})):
+    if known and (left := not_asked_for(store, planned.file, {one.address for one in plan.evaluations})):
         say(f"no description asks for {size_in_words(left.values())}; `clean_up` removes them")
     earlier, trials = _studied(plan, planned.file.own_name)
     return CohortResult(
@@ -382,7 +382,7 @@ def _looked_at(
         raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
-    _clean(plan, store, o)
+    _clean(planned, plan, store, o)
     told = [(one.trial.name, store.told(one.address)) for one in (*earlier, *trials) if one.outcome.state == DONE]
     judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
     reserve_of_several([(name, each["warnings"]) for name, each in told])
@@ -397,19 +397,17 @@ def _looked_at(
     return (earlier, trials), curves, surface
 
 
-def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
+def _clean(planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions) -> None:
     """Keep what the description asks for; remove what none does, where that is asked."""
-    addresses = {one.address for one in plan.evaluations} - {""}
-    note_asked(store, o.study, addresses)
+    addresses = {one.address for one in plan.evaluations}
+    note_asked(store, planned.file, addresses)
     if not o.clean_up:
         return
     if any(one.state != DONE for one in plan.evaluations):
         reserve("nothing was removed: evaluations without results may still need what is there")
         return
-    left = not_asked_for(store, o.study, addresses)
-    for each in left:
-        store.forget(each)
-    say(f"removed what no description asks for: {size_in_words(left.values())}")
+    removed = clear(store, planned.file, addresses)
+    say(f"removed what no description asks for: {size_in_words(removed.values())}")
 
 
 cohort = Job("cohort", CohortOptions, read, run)
