@@ -141,6 +141,29 @@ def test_only_from_and_forget_choose_what_is_evaluated(tmp_path: Path, scheduler
     assert refused.code == 2 and "--only: no trial has 'person'; names are subject, trial" in refused.err
 
 
+def test_what_is_not_asked_for_stays_in_a_step_that_is_evaluated_anew(tmp_path: Path, scheduler: str) -> None:
+    """Of B nothing is evaluated, and its numbers stay in the tables; sums that two trials share are evaluated."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = OWN.replace('file = "{sum:total.txt}"', 'file = "{sum:total.txt}", gain = "{gain}"')
+    file.write_text(f"{text}[vary]\ngain = [1, 3]\n", encoding="utf-8")
+    assert cohort(file, out, scheduler).code == 0
+    table = (out / "tables" / "sum" / "total.parquet").read_bytes()
+    for chosen, count in (
+        (("--from", "sum", "--only", "subject=A"), [0, 2, 4, 1, 1]),
+        (("--forget", "sum", "--only", "subject=A"), [0, 2, 0, 0, 0]),
+        (("--forget", "sum", "--only", "gain=3"), [0, 4, 0, 0, 0]),
+        (("--forget", "sum", "--only", "gain=1"), [0, 4, 0, 0, 0]),
+    ):
+        again = cohort(file, out, scheduler, *chosen)
+        assert again.code == 0 and new(again) == count, (chosen, new(again))
+        assert (
+            set(states(out)["state"]) == {"done"} and (out / "tables" / "sum" / "total.parquet").read_bytes() == table
+        )
+    (tmp_path / "A_1.txt").write_text("11", encoding="utf-8")
+    left = cohort(file, out, scheduler, "--forget", "sum", "--only", "subject=B")
+    assert left.code == 0 and states(out)["state"]["sum"].value_counts().to_dict() == {"done": 6, "not asked for": 2}
+
+
 def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, scheduler: str) -> None:
     file, out = chain(tmp_path, {**NUMBERS, "B_1": "wrong"}), tmp_path / "out"
     done = cohort(file, out, scheduler)
