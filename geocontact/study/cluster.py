@@ -73,7 +73,7 @@ class ClusterSettings(Document):
     cores
         Of each job, which evaluates as many trials at a time as they have room for.
     memory
-        Of each job; by default 2.2-fold that of `[limits]` for each trial.
+        Of each job; by default 2.2 times that of `[limits]` per trial.
     walltime
         Trials that a job has not finished begin again in another.
     queue
