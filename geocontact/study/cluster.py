@@ -123,7 +123,7 @@ class JobSize:
 
 
 def job_size(asked: ClusterSettings, limits: Limits, file: Path) -> JobSize:
-    """Of a study's jobs; InputError where its limits do not fit into them."""
+    """Size of a study's jobs; InputError where its limits do not fit into them."""
     place = "[cluster]"
     processes = asked.cores // limits.cores
     if processes < 1:

@@ -112,7 +112,7 @@ class StudiedTrial:
     outcome: TrialOutcome
 
     def called(self, *, step: bool) -> str:
-        """Its name, after that of its step where there are several."""
+        """Name of the trial, after that of its step where there are several."""
         return f"{self.step} of {self.trial.name}" if step else self.trial.name
 
     def noted(self, before: Mapping[tuple[str, str], tuple[str, str]]) -> tuple[str, str]:
