@@ -36,6 +36,14 @@ KEYS = ".dask-jobqueue.worker."
 PATH = re.compile(r"[\w.@:+/-]+")
 """Paths that every system's directives take as they are."""
 LONG = "--"  # so begin options of `dask worker`
+USED = 0.9
+"""Share of a job's memory for trials where the description does not say how much it has."""
+NANNY = 0.95
+"""Dask's nanny ends a process that holds this share of its memory."""
+KEEPS = "export DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE=False"
+"""Unless this is said: where trials may hold more, their own limit and the queue's are enough."""
+LISTED = re.compile(r"^ {0,10}([0-9]+)(?=[\s._\[]|$)", re.MULTILINE)
+"""Number of a job, where a line of what a queue lists begins."""
 LOST = 20.0  # s; after which a job that was there and is gone is submitted anew
 
 
@@ -66,7 +74,7 @@ class ClusterSettings(Document):
     cores
         Of each job, which evaluates as many trials at a time as they have room for.
     memory
-        Of each job; by default twice that of `[limits]` for each trial.
+        Of each job; by default 2.2 times that of `[limits]` per trial.
     walltime
         Trials that a job has not finished begin again in another.
     queue
@@ -116,7 +124,7 @@ class JobSize:
 
 
 def job_size(asked: ClusterSettings, limits: TrialLimits, file: Path) -> JobSize:
-    """What a study's jobs have; InputError where its limits do not fit into them."""
+    """Size of a study's jobs; InputError where its limits do not fit into them."""
     place = "[cluster]"
     processes = asked.cores // limits.cores
     if processes < 1:
@@ -125,7 +133,7 @@ def job_size(asked: ClusterSettings, limits: TrialLimits, file: Path) -> JobSize
     if asked.memory is None and limits.memory is None:
         raise InputError(file, f"{place} memory", "is missing", 'add it: memory = "4GB"')
     twice = TRIES * (limits.memory or 0)
-    memory = processes * twice if asked.memory is None else bytes_of(asked.memory)
+    memory = int(processes * twice / USED) if asked.memory is None else bytes_of(asked.memory)
     if memory < processes * twice:
         what = f"{size_text(memory)} are less than {processes} trials may take at their second try"
         raise InputError(file, f"{place} memory", what, f"write {size_text(processes * twice)}")
@@ -158,6 +166,7 @@ def job_options(
             *(dask.config.get(f"jobqueue.{system}.job-script-prologue", None) or []),
             f"export {threads}",
             f"export {closed}",
+            *([KEEPS] if NANNY * size.memory < size.processes * TRIES * (limits.memory or 0) else []),
         ],
         "worker_extra_args": [f"{LONG}nthreads", "1", f"{LONG}no-dashboard"],  # the last one counts
         "scheduler_options": {"dashboard": False},
@@ -246,7 +255,7 @@ class Jobs:
             ).stdout
         except (OSError, subprocess.TimeoutExpired):  # it does not answer: nothing is known, and jobs may be there
             return bool(ids)
-        return bool(ids & set(re.findall(r"\d+", said)))
+        return bool(ids & {*LISTED.findall(said)})
 
 
 def _noting(jobs: Jobs, base: Any) -> type:

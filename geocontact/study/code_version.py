@@ -10,7 +10,7 @@ import ast
 import hashlib
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, packages_distributions, version
@@ -82,7 +82,10 @@ class CodeSources:
         return self._folders[top]
 
     def closure(self, module: str) -> tuple[dict[str, Path], set[str]]:
-        """Modules of its own package and of this one that a module can import, with their files, and libraries."""
+        """Modules that a module can import, with their files, but for those of distributions, which are libraries.
+
+        Its own package and this one count although distributions may have them.
+        """
         own = {PACKAGE, module.partition(".")[0]}
         found: dict[str, Path] = {}
         libraries: set[str] = set()
@@ -94,11 +97,19 @@ class CodeSources:
                 continue
             found[name] = file
             told = _read(file, name, file.stat().st_mtime_ns)
+            tops = {each.partition(".")[0] for each in told.imports}
+            own |= {each for each in tops - own - libraries if self._is_loose(each)}
+            libraries |= tops - own
             waiting += [each for each in (*_parents(name), *told.texts) if each.partition(".")[0] in own]
             waiting += [each for each in told.imports if each.partition(".")[0] in own]
             waiting += self._all_of(READ_FROM_FILES.get(name, ""))
-            libraries |= {each.partition(".")[0] for each in told.imports} - own
         return found, libraries - set(sys.stdlib_module_names)
+
+    def _is_loose(self, top: str) -> bool:
+        """Whether sources are there that are of no distribution, whose version would say that they changed."""
+        if top in sys.stdlib_module_names or top in _distributions():
+            return False
+        return self._folder(top) is not None
 
     def _all_of(self, package: str) -> Iterator[str]:
         if not package:
@@ -117,6 +128,11 @@ class CodeSources:
         return found.hexdigest()[:32]
 
 
+def _package(name: str, file: Path) -> str:
+    """The package that a module is in, or is; "" where it is in none."""
+    return name if file.name == "__init__.py" else name.rpartition(".")[0]
+
+
 def _parents(name: str) -> Iterator[str]:
     while "." in name:
         name = name.rpartition(".")[0]
@@ -124,9 +140,16 @@ def _parents(name: str) -> Iterator[str]:
 
 
 def _data(modules: dict[str, Path]) -> dict[str, Path]:
-    """Data in the folders of modules, and one folder below where that is no package."""
-    folders = {file.parent: name.rpartition(".")[0] for name, file in modules.items()}
+    """Data in the folders of packages, and one folder below where that is none.
+
+    Beside a module that is in no package stand others' files too, such as results of studies: those that it names.
+    """
+    folders = {file.parent: home for name, file in modules.items() if (home := _package(name, file))}
     found = {}
+    for name, file in ((name, file) for name, file in modules.items() if not _package(name, file)):
+        source = file.read_bytes()
+        beside = (each for each in file.parent.iterdir() if each.suffix in DATA and each.is_file())
+        found.update({f"{name}/{each.name}": each for each in beside if each.name.encode() in source})
     for folder, name in folders.items():
         below = [each for each in folder.iterdir() if each.is_dir() and not any(each.glob("*.py"))]
         for file in (each for place in (folder, *below) for each in place.iterdir()):
@@ -175,11 +198,16 @@ def _named(text: str, name: str) -> Iterator[str]:
 
 
 @cache
+def _distributions() -> Mapping[str, list[str]]:
+    return packages_distributions()
+
+
+@cache
 def code_version(module: str) -> dict[str, object]:
     """Digest of the code that a module can import, and the versions of its libraries."""
     sources = CodeSources()
     _, libraries = sources.closure(module)
-    known = packages_distributions()
+    known = _distributions()
     names = sorted({known.get(each, [each])[0] for each in libraries})
     return {"code": sources.digest(module), "libraries": {name: _version(name) for name in names}}
 

@@ -1,21 +1,25 @@
 """What a trial may take: time, memory and cores. One that takes more is ended, and its log says where it was.
 
-The first time that a limit is passed the trial is tried again with twice of it, the second time it is set aside. Time
-is watched by a thread of Python's `faulthandler`, which compiled code cannot hold up; memory ten times a second by a
-thread of the worker, and, where such code keeps the interpreter to itself, by Dask's nanny at four times the limit.
+The first time that a limit is passed the trial is tried again with twice of it, the second time it is set aside. Both
+are watched by a thread of the worker, memory ten times a second, which also ends what the trial started. Where compiled
+code keeps the interpreter to itself, a thread of Python's `faulthandler` ends the worker alone a second later, and
+Dask's nanny at four times the memory.
 """
 
 from __future__ import annotations
 
 import faulthandler
+import math
 import os
 import re
 import threading
+import time
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
+from datetime import timedelta
 from pathlib import Path
-from typing import Annotated, TextIO
+from typing import Annotated, Any, TextIO
 
 from pydantic import AfterValidator, Field
 
@@ -26,8 +30,9 @@ SIZE = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?([kMGT])(i?)B")
 TRIES = 2
 """So often a limit may be passed, the last time twice of it."""
 WATCHED = 0.1  # s; so often memory is looked at
+HELD_UP = 1.0  # s; after the time, where the interpreter is not free
 TIMED_OUT, TOO_LARGE = "Timeout (", "Memory ("
-"""How a log goes on where a trial was ended; the first by `faulthandler`."""
+"""How a log goes on where a trial was ended; the first as `faulthandler` writes it."""
 
 
 def bytes_of(size: str) -> int:
@@ -131,12 +136,12 @@ def kept_within(limits: TrialLimits, log: Path) -> Iterator[None]:
     with ExitStack() as held:
         held.callback(_remove_empty, log)
         file = held.enter_context(log.open("a", encoding="utf-8"))
+        seconds = math.inf if limits.time is None else limits.time * (TRIES if times else 1)
+        most = math.inf if limits.memory is None else limits.memory * (TRIES if sizes else 1)
         if limits.time is not None:
-            seconds = limits.time * (TRIES if times else 1)
-            faulthandler.dump_traceback_later(seconds, exit=True, file=file)
+            faulthandler.dump_traceback_later(seconds + HELD_UP, exit=True, file=file)
             held.callback(faulthandler.cancel_dump_traceback_later)
-        if limits.memory is not None:
-            held.enter_context(_watched(limits.memory * (TRIES if sizes else 1), file))
+        held.enter_context(_watched(seconds, most, file))
         yield
 
 
@@ -147,29 +152,36 @@ def _remove_empty(log: Path) -> None:
 
 
 @contextmanager
-def _watched(most: int, log: TextIO) -> Iterator[None]:
-    """A thread that ends this process, and those that it started, where they hold more than `most` bytes."""
+def _watched(seconds: float, most: float, log: TextIO) -> Iterator[None]:
+    """A thread that ends this process, and those that it started, after a time or where they hold more than `most`."""
     import psutil  # type: ignore[import-untyped]  # of the extra, as is what calls this
 
-    over, own = threading.Event(), psutil.Process()
+    over, own, until = threading.Event(), psutil.Process(), time.monotonic() + seconds
+    pause = seconds if math.isinf(most) else WATCHED
+
+    def end(why: str, children: list[Any]) -> None:
+        faulthandler.cancel_dump_traceback_later()  # it would write as well
+        log.write(f"{why})!\n")
+        log.flush()
+        faulthandler.dump_traceback(file=log)
+        for each in children:
+            with suppress(psutil.Error):
+                each.kill()
+        os._exit(1)
 
     def watch() -> None:
-        while not over.wait(WATCHED):
+        while not over.wait(max(0.0, min(pause, until - time.monotonic()))):
             children = []
             with suppress(psutil.Error):
                 children = own.children(recursive=True)
+            if time.monotonic() >= until and not over.is_set():
+                end(f"{TIMED_OUT}{timedelta(seconds=seconds)}", children)
             held = own.memory_info().rss
             for each in children:
                 with suppress(psutil.Error):
                     held += each.memory_info().rss
             if held > most and not over.is_set():
-                log.write(f"{TOO_LARGE}{size_text(held)} of {size_text(most)})!\n")
-                log.flush()
-                faulthandler.dump_traceback(file=log)
-                for each in children:
-                    with suppress(psutil.Error):
-                        each.kill()
-                os._exit(1)
+                end(f"{TOO_LARGE}{size_text(held)} of {size_text(most)}", children)
 
     thread = threading.Thread(target=watch, daemon=True)
     thread.start()

@@ -105,6 +105,7 @@ class StudyPlan:
         self._waiting: deque[TrialTask] = deque()
         self._at: dict[str, list[int]] = {}
         self._became: dict[str, TrialOutcome] = {}
+        self._kept: dict[str, list[int]] = {}  # that are there and not asked for, of steps that are evaluated anew
         self._named: list[str] = []
         self._ended: list[int] = []
         self._run_id = secrets.token_hex(8)
@@ -162,22 +163,32 @@ class StudyPlan:
         one.address = task.address
         if task.address in self._became:
             self._end(k, self._became[task.address])
-        elif one.run.step not in self._anew and self._holds(task):
+        elif task.address in self._at:
+            self._at[task.address].append(k)
+        elif (one.run.step not in self._anew or not self._asked(one.run)) and self._holds(task):
             one.kept = True
+            if one.run.step in self._anew:
+                self._kept.setdefault(task.address, []).append(k)
             self._end(k, TrialOutcome(DONE))
         elif not self._asked(one.run):
             self._end(k, TrialOutcome(LEFT, "has no results, and is left as it is"))
         else:
             self._named += programs
-            if task.address not in self._at:
-                self._waiting.append(task)
-            self._at.setdefault(task.address, []).append(k)
+            self._waiting.append(task)
+            self._at[task.address] = [k]
 
     def _end(self, k: int, outcome: TrialOutcome) -> None:
         self.evaluations[k].outcome = outcome
         self._ended.append(k)
         for each in self._users.get(k, ()):
             self._settle(each)
+
+    def _end_all(self, address: str, outcome: TrialOutcome) -> None:
+        """End evaluations of an address; what was to be kept there is as new as they are."""
+        for k in self._kept.pop(address, ()):
+            self.evaluations[k].outcome, self.evaluations[k].kept = outcome, False
+        for k in self._at.pop(address):
+            self._end(k, outcome)
 
     def _holds(self, task: TrialTask) -> bool:
         return self.store.holds(task.address, self.study.home, self._digests, task.taken)
@@ -263,8 +274,7 @@ class StudyPlan:
                 named = len(self._named)
                 self._ended.clear()
                 self._became[task.address] = outcome
-                for k in self._at.pop(task.address):
-                    self._end(k, outcome)
+                self._end_all(task.address, outcome)
                 if self._named[named:]:
                     self._consent(self._named[named:], said=True)
                 spent += outcome.seconds

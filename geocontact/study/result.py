@@ -14,7 +14,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,13 +34,13 @@ from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
-from geocontact.study.clean_up import not_asked_for, note_asked, size_in_words
+from geocontact.study.clean_up import clear, not_asked_for, note_asked, size_in_words
 from geocontact.study.curves import StudyCurves, curves_of, require_summary
 from geocontact.study.description import StudyFile, read_study_file
 from geocontact.study.graph import StepState, graph_picture, in_words, step_states
 from geocontact.study.options import CohortOptions
 from geocontact.study.plan import LEFT, PLANNED, WITHOUT, Evaluation, StudyPlan
-from geocontact.study.selection import MANIFEST, asked_for
+from geocontact.study.selection import MANIFEST, asked_for, known_failures, refuse_odd
 from geocontact.study.show import study_curves, study_page
 from geocontact.study.steps import StepRun, runs_of
 from geocontact.study.store import RESULTS, Store
@@ -97,10 +97,8 @@ def read(o: CohortOptions) -> PlannedStudy:
         if asked is not None and asked not in study.all_steps:
             raise InputError(o.study, f"`{name}`", f"no step is {asked!r}", f"there are {', '.join(study.all_steps)}")
     runs = runs_of(study)
-    known = [*dict.fromkeys(name for run in runs for name in run.trial.factors)]
-    odd = next((each for each in o.only if each.partition("=")[0] not in known), None)
-    if odd is not None:
-        raise InputError(o.study, "`only`", f"no trial has {odd.partition('=')[0]!r}", f"names are {', '.join(known)}")
+    if o.only:
+        refuse_odd(study, o.only)
     return PlannedStudy(study, tuple(runs), cutting_of(o.events, o.cycle_side, o.part))
 
 
@@ -112,6 +110,15 @@ class StudiedTrial:
     trial: CohortTrial
     address: str
     outcome: TrialOutcome
+
+    def called(self, *, step: bool) -> str:
+        """Name of the trial, after that of its step where there are several."""
+        return f"{self.step} of {self.trial.name}" if step else self.trial.name
+
+    def noted(self, before: Mapping[tuple[str, str], tuple[str, str]]) -> tuple[str, str]:
+        """State and words for the table; of one that is left as it is what it failed with in an earlier run."""
+        now = self.outcome.state, self.outcome.line
+        return before.get((self.step, self.trial.name), now) if self.outcome.state == LEFT else now
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -140,6 +147,8 @@ class CohortResult(Result):
         Keeps other studies out of the folder until the tables are written.
     dry
         Nothing was evaluated, and nothing is written.
+    before
+        State and words of what failed in earlier runs, by step and name.
     """
 
     planned: PlannedStudy
@@ -152,6 +161,7 @@ class CohortResult(Result):
     surface: SurfaceValues | None
     scratch: Scratch | None
     held: ExitStack
+    before: Mapping[tuple[str, str], tuple[str, str]] = field(default_factory=dict)
 
     @property
     def done(self) -> tuple[StudiedTrial, ...]:
@@ -233,12 +243,13 @@ class CohortResult(Result):
                 **({"step": one.step} if self.earlier else {}),
                 "name": one.trial.name,
                 **{name: one.trial.factors.get(name, "") for name in names},
-                "state": one.outcome.state,
+                "state": state,
                 "folder": f"{RESULTS}/{one.address}" if one.outcome.state == DONE else "",
                 **doubt_columns(told.get("fit", ""), told.get("warnings", ())),
-                "words": one.outcome.line,
+                "words": words,
             }
             for one in self.every
+            for state, words in [one.noted(self.before)]
             for told in [self.store.told(one.address) if one.outcome.state == DONE else {}]
         ]
         return pd.DataFrame(rows)
@@ -256,7 +267,7 @@ class CohortResult(Result):
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Mean curves, statistics, and all trials with a link to the page of each."""
         graph = [graph_picture(self.states)] if self.earlier else []
-        return {REPORT: study_page(self.title, self.ensembles, self.tables(), graph)}
+        return {REPORT: study_page(self.title, self.ensembles, self.tables(), graph, self.store.folder.parent)}
 
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Nothing of a dry run: results of a run before it stay as they are."""
@@ -312,6 +323,7 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
         surface=surface,
         scratch=scratch,
         held=kept,
+        before=known_failures(planned.file, out),
     )
 
 
@@ -350,7 +362,7 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
         total = sum(one.missing * (one.seconds or 0.0) for one in states)
         say(f"all of it: about {in_words(total)} of work, shared by the workers")
     known = all(one.state == DONE for one in plan.evaluations)  # else some may still be those of later steps
-    if known and (left := not_asked_for(store, planned.file.path, {one.address for one in plan.evaluations})):
+    if known and (left := not_asked_for(store, planned.file, {one.address for one in plan.evaluations})):
         say(f"no description asks for {size_in_words(left.values())}; `clean_up` removes them")
     earlier, trials = _studied(plan, planned.file.own_name)
     return CohortResult(
@@ -374,16 +386,19 @@ def _looked_at(
     earlier, trials = _studied(plan, planned.file.own_name)
     for one in (*earlier, *trials):
         if one.outcome.state not in (DONE, LEFT, WITHOUT):
-            of = f"{one.step} of " if earlier else ""
-            listener().fail(f"{of}{one.trial.name}: {one.outcome.line}")
+            listener().fail(f"{one.called(step=bool(earlier))}: {one.outcome.line}")
     done = [one for one in trials if one.outcome.state == DONE]
     if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
         count = len(trials) + len(earlier)
         raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
-    _clean(plan, store, o)
-    told = [(one.trial.name, store.told(one.address)) for one in (*earlier, *trials) if one.outcome.state == DONE]
+    _clean(planned, plan, store, o)
+    told = [
+        (one.called(step=bool(earlier)), store.told(one.address))
+        for one in (*earlier, *trials)
+        if one.outcome.state == DONE
+    ]
     judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
     reserve_of_several([(name, each["warnings"]) for name, each in told])
     kept = [(one.trial, one.address) for one in done]
@@ -397,19 +412,17 @@ def _looked_at(
     return (earlier, trials), curves, surface
 
 
-def _clean(plan: StudyPlan, store: Store, o: CohortOptions) -> None:
+def _clean(planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions) -> None:
     """Keep what the description asks for; remove what none does, where that is asked."""
-    addresses = {one.address for one in plan.evaluations} - {""}
-    note_asked(store, o.study, addresses)
+    addresses = {one.address for one in plan.evaluations}
+    note_asked(store, planned.file, addresses)
     if not o.clean_up:
         return
     if any(one.state != DONE for one in plan.evaluations):
         reserve("nothing was removed: evaluations without results may still need what is there")
         return
-    left = not_asked_for(store, o.study, addresses)
-    for each in left:
-        store.forget(each)
-    say(f"removed what no description asks for: {size_in_words(left.values())}")
+    removed = clear(store, planned.file, addresses)
+    say(f"removed what no description asks for: {size_in_words(removed.values())}")
 
 
 cohort = Job("cohort", CohortOptions, read, run)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -30,8 +31,12 @@ def study_page(
     curves: Sequence[StudyCurves],
     tables: Mapping[str, pd.DataFrame],
     graph: Sequence[Picture] = (),
+    home: Path | None = None,
 ) -> Page:
-    """The page, with curves that can be read by pointing at them, and the graph of the steps behind them."""
+    """The page, with curves that can be read by pointing at them, and the graph of the steps behind them.
+
+    Trials whose page is in `home`, the folder that theirs start from, are linked to it.
+    """
     sections: list[Section] = [*study_curves(curves).panels]
     for name, words in (
         ("values", "Mean and largest value of the subjects"),
@@ -41,7 +46,7 @@ def study_page(
         if name in tables and len(tables[name]):
             sections.append(frame_table(words, _known(tables[name])))
     sections += graph
-    sections.append(_trials(tables["trials"]))
+    sections.append(_trials(tables["trials"], home))
     return Page(
         title,
         f"geocontact {current().command}",
@@ -82,11 +87,12 @@ def _printed(unit: str | None) -> str:
     return (unit or "-").replace("^2", "²").replace("^3", "³")
 
 
-def _trials(manifest: pd.DataFrame) -> Table:
+def _trials(manifest: pd.DataFrame, home: Path | None) -> Table:
     shown = manifest.iloc[:ROWS]
     words = f"Trials, {ROWS} of {len(manifest)}" if len(manifest) > ROWS else "Trials"
     told = frame_table(words, _known(shown.drop(columns="folder")), most=ROWS)
-    links = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
+    pages = [f"{folder}/{REPORT}" if folder else "" for folder in shown["folder"]]
+    links = [page if page and home and (home / page).is_file() else "" for page in pages]
     return Table(told.title, told.header, told.rows, links=links)
 
 

@@ -23,7 +23,7 @@ from geocontact.study.trials import CohortTrial, Several, TrialRow, filled, tria
 TAKEN = re.compile(r"\{([A-Za-z0-9_-]+):([^{}:]+)\}")
 """`{STEP:FILE}`."""
 STEP = re.compile(r"\{([A-Za-z0-9_-]+):")
-"""The step of it, before names in the file's are filled in."""
+"""The step of it."""
 _Places = dict[Hashable, int]
 """Places of a step's evaluations by what `_key` says of trials."""
 
@@ -56,22 +56,25 @@ class StepRun:
 def runs_of(study: StudyFile) -> list[StepRun]:
     """All evaluations of all steps: each after those that it takes from, those of the study's own analysis last."""
     trials = trials_of(study)
+    made = {
+        name: [_run(study, name, step, *group) for group in _groups(study, name, step, trials)]
+        for name, step in study.all_steps.items()
+    }
     found: list[StepRun] = []
     places: dict[str, _Places] = {}
-    for name in _in_order(study):
-        step = study.all_steps[name]
-        own = [_run(study, name, step, *group) for group in _groups(study, name, step, trials)]
+    for name in _in_order(study, made):
+        step, own = study.all_steps[name], made[name]
         twice = next((each for each, count in Counter(run.trial.name for run in own).items() if count > 1), None)
         if twice is not None:
             raise InputError(study.path, "", f"two trials are {twice!r}", "name what they differ in, as in {trial}")
         places[name] = {_key(k, step, trials): len(found) + at for at, run in enumerate(own) for k in run.trials}
-        found += [replace(run, takes=_takes(study, run, step, places, trials)) for run in own]
+        found += [replace(run, takes=_takes(study, run, places, trials)) for run in own]
     return found
 
 
-def taken_by(step: StepSettings, more: Sequence[Mapping[str, Any]] = ()) -> dict[str, str]:
-    """Names of the steps that a step takes from, each with the option that names it; `more` are options of trials."""
-    options = [pair for each in (step.options, *more) for pair in each.items()]
+def taken_by(run: StepRun) -> dict[str, str]:
+    """Names of the steps that an evaluation takes from, each with the option that names it."""
+    options = run.trial.options.items()
     return {name: option for option, value in options for text in _texts(value) for name in STEP.findall(text)}
 
 
@@ -87,13 +90,12 @@ def _place(study: StudyFile, name: str) -> str:
     return "[options]" if name == study.own_name else f"[steps.{name}.options]"
 
 
-def _in_order(study: StudyFile) -> list[str]:
+def _in_order(study: StudyFile, made: Mapping[str, Sequence[StepRun]]) -> list[str]:
     """Names of steps, each after those that it takes from, else as they are written, the study's own last."""
     steps = study.all_steps
     before: dict[str, list[str]] = {}
-    for name, step in steps.items():
-        more = [trial.options for trial in study.trials] if name == study.own_name else []
-        taken = taken_by(step, more)
+    for name in steps:
+        taken = {each: option for run in made[name] for each, option in taken_by(run).items()}
         odd = next((each for each in taken if each not in study.steps), None)
         if odd is not None:
             known = ", ".join(each for each in study.steps if each != name) or "none"
@@ -166,12 +168,11 @@ def _shared(values: Sequence[Value]) -> Value | Several:
 
 
 def _takes(
-    study: StudyFile, run: StepRun, step: StepSettings, places: Mapping[str, _Places], trials: Sequence[TrialRow]
+    study: StudyFile, run: StepRun, places: Mapping[str, _Places], trials: Sequence[TrialRow]
 ) -> dict[str, tuple[int, ...]]:
     """Evaluations of other steps that an evaluation takes from."""
     found = {}
-    own = [trials[k].options for k in sorted(run.trials)] if run.step == study.own_name else []
-    for name, option in taken_by(step, own).items():
+    for name, option in taken_by(run).items():
         these = {places[name].get(_key(k, study.steps[name], trials)) for k in run.trials} - {None}
         if not these:
             place = f"{_place(study, run.step)} {option}"

@@ -186,6 +186,10 @@ class Store:
             p.name for p in there if ADDRESS.fullmatch(p.name) and not p.is_symlink() and (p / TOLD).is_file()
         )
 
+    def logs(self) -> list[str]:
+        """Addresses that have a log, in order of the alphabet."""
+        return sorted(p.stem for p in self.folder.glob("*.log") if ADDRESS.fullmatch(p.stem))
+
     def size(self, address: str) -> int:
         """Bytes of results."""
         return sum(file.stat().st_size for file in self.place(address).rglob("*") if file.is_file())

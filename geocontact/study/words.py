@@ -19,12 +19,14 @@ LEVEL = 0.05
 
 
 def say_how_many(evaluations: Sequence[Evaluation]) -> None:
-    """Say of each step "3 of 4 trials of area have results, 1 of them new"."""
-    for name in dict.fromkeys(one.run.step for one in evaluations):
+    """Say "3 of 4 trials of area have results, 1 of them new", of several steps for each by its name."""
+    names = list(dict.fromkeys(one.run.step for one in evaluations))
+    for name in names:
         own = [one for one in evaluations if one.run.step == name]
         done = [one for one in own if one.state == DONE]
+        called = own[0].run.analysis if name == names[-1] else name
         new = len({one.address for one in done} - {one.address for one in done if one.kept})
-        say(f"{len(done)} of {counted(len(own), 'trial')} of {own[0].run.analysis} have results, {new} of them new")
+        say(f"{len(done)} of {counted(len(own), 'trial')} of {called} have results, {new} of them new")
 
 
 def say_differences(curves: Sequence[StudyCurves]) -> None:

@@ -123,3 +123,29 @@ def test_every_analysis_has_a_version_with_its_libraries() -> None:
         assert len(found) < 400, "of a thousand"
     assert "casadi" in str(code_version(entry_of("ik").module)["libraries"])
     assert "casadi" not in str(code_version(entry_of("area").module)["libraries"])
+
+
+def test_modules_that_no_distribution_has_are_sources_and_not_libraries(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A helper beside the analysis, what that imports, a folder without __init__.py, and a file that one names."""
+    texts = {
+        "own_add.py": "import numpy\nfrom own_helper import factor\n",
+        "own_helper.py": "def factor():\n    import own_parts.more\n    return open('factor.json')\n",
+        "own_parts/more.py": "import tomllib\n",
+        "factor.json": "1",
+        "study.toml": "",
+        "out/run.json": "",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert CodeSources().closure("own_add")[1] == {"numpy"}
+
+    def changes(name: str) -> bool:
+        before = CodeSources().digest("own_add")
+        (tmp_path / name).write_text(texts[name] + "\n", encoding="utf-8")
+        return CodeSources().digest("own_add") != before
+
+    assert {name for name in texts if changes(name)} == {*texts} - {"study.toml", "out/run.json"}

@@ -149,11 +149,15 @@ def test_units_on_the_page_are_as_in_print(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("trials", [1, 201, 500, 501])
-def test_the_page_of_many_trials_links_to_those_that_it_shows(trials: int) -> None:
+def test_the_page_of_many_trials_links_to_those_that_it_shows(tmp_path: Path, trials: int) -> None:
     manifest = pd.DataFrame({"name": [f"S{k}" for k in range(trials)], "folder": "results/0"})
-    page = study_page("many", [], {"trials": manifest})
-    (table,) = (part for part in page.sections if isinstance(part, Table))
-    assert len(table.rows) == len(table.links) == min(trials, 500)
+    (tmp_path / "results" / "0").mkdir(parents=True)
+    for there in (False, True):
+        page = study_page("many", [], {"trials": manifest}, home=tmp_path)
+        (table,) = (part for part in page.sections if isinstance(part, Table))
+        assert len(table.rows) == len(table.links) == min(trials, 500)
+        assert set(table.links) == {"results/0/report.html" if there else ""}, "only to a page that is there"
+        (tmp_path / "results" / "0" / "report.html").touch()
 
 
 @pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no /proc here")

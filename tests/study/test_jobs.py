@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import psutil
@@ -17,7 +18,7 @@ import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study import workers
-from geocontact.study.cluster import SYSTEMS, ClusterSettings, Jobs, job_size
+from geocontact.study.cluster import SYSTEMS, ClusterSettings, Jobs, job_options, job_size
 from geocontact.study.description import read_study_file
 from geocontact.study.limits import TrialLimits
 from geocontact.study.options import CohortOptions
@@ -235,9 +236,34 @@ def test_limits_that_do_not_fit_into_a_job_are_refused(
         job_size(asked, limits, Path("study.toml"))
 
 
-def test_memory_of_a_job_is_twice_that_of_its_trials_where_it_is_not_given() -> None:
+def test_memory_of_a_job_has_room_for_second_tries_where_it_is_not_given(tmp_path: Path) -> None:
+    """Dask ends a process at 95 % of its share: that is more than twice the limit, or Dask does not."""
     size = job_size(ClusterSettings(jobs=1, cores=9), TrialLimits(memory=GB, cores=3), Path("study.toml"))
-    assert (size.processes, size.memory) == (3, 6 * GB)
+    assert size.processes == 3 and 0.95 * size.memory > 6 * GB > 0.85 * size.memory
+    for memory, ends in ((None, True), ("6GB", False), ("6.4GB", True)):
+        asked, limits = ClusterSettings(jobs=1, cores=9, memory=memory), TrialLimits(memory=GB, cores=3)
+        found = job_options("slurm", asked, limits, job_size(asked, limits, Path("study.toml")), tmp_path)
+        said = "export DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE=False" in found["job_script_prologue"]
+        assert said is not ends, memory
+
+
+LISTINGS = {
+    "slurm": "4711\n4712_3\n",
+    "pbs": "Job id            Name    User\n----------------  ------  ----\n4711.node17       run_99  ann 12:30:00 R\n",
+    "lsf": "JOBID   USER  STAT  QUEUE  SUBMIT_TIME\n4711    ann   RUN   short  Nov 28 12:30\n          16*host99\n",
+    "sge": "job-ID  prior   name  user  submit/start at\n-----\n   4711 0.55500 run_99  ann  r  11/28/2026 12:30:00\n",
+}
+
+
+@pytest.mark.parametrize("system", list(SYSTEMS))
+def test_only_the_first_column_of_a_queue_names_jobs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, system: str
+) -> None:
+    own = jobs(system, tmp_path, TrialLimits(None, 2 * GB))
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=LISTINGS[system]))
+    for number in ("4711", "99", "12", "28", "16", "17", "0", "2026", "55500", "30"):
+        cluster = SimpleNamespace(workers={"0": SimpleNamespace(job_id=number)})
+        assert own.queued(cluster) is (number == "4711"), number
 
 
 @pytest.mark.parametrize("key", ["queue", "account", "walltime"])

@@ -66,6 +66,14 @@ def test_what_takes_more_is_ended_and_the_log_says_where(tmp_path: Path, limits:
     assert ended(tmp_path / "a.log") == ((1, 0) if word == "Timeout (" else (0, 1))
 
 
+def test_what_a_trial_started_ends_with_it_at_its_time(tmp_path: Path) -> None:
+    body = f"open({str(tmp_path / 'pid')!r}, 'w').write(str(subprocess.Popen(['sleep', '60']).pid)); time.sleep(60)"
+    code, log = ends(tmp_path, "time=2.0", f"import subprocess; {body}")
+    assert code == 1 and log.startswith("Timeout (0:00:02)!") and ended(tmp_path / "a.log") == (1, 0)
+    started = int((tmp_path / "pid").read_text(encoding="utf-8"))
+    assert not psutil.pid_exists(started) or psutil.Process(started).status() == psutil.STATUS_ZOMBIE
+
+
 def test_what_stays_within_its_limits_leaves_no_log(tmp_path: Path) -> None:
     assert ends(tmp_path, "time=60.0, memory=4_000_000_000", "np.ones(5_000_000)") == (0, "")
 

@@ -139,6 +139,38 @@ def test_only_from_and_forget_choose_what_is_evaluated(tmp_path: Path, scheduler
     assert refused.code == 2 and "--from: no step is 'sun'; there are offset, sum, sine, all" in refused.err
     refused = cohort(file, out, scheduler, "--only", "person=A")
     assert refused.code == 2 and "--only: no trial has 'person'; names are subject, trial" in refused.err
+    for chosen, said in (
+        (["subject=Z"], "--only: no trial has subject 'Z'; values are A, B"),
+        (["subject=A", "subject=B"], "--only: subject is given twice; give one value of each name"),
+    ):
+        refused = cohort(file, out, scheduler, *(word for each in chosen for word in ("--only", each)))
+        assert refused.code == 2 and said in refused.err
+    (tmp_path / "A_2.txt").unlink()
+    refused = cohort(file, out, scheduler, "--only", "subject=A", "--only", "trial=2")
+    assert refused.code == 2 and "--only: no trial has subject=A and trial=2; leave one of them out" in refused.err
+
+
+def test_what_is_not_asked_for_stays_in_a_step_that_is_evaluated_anew(tmp_path: Path, scheduler: str) -> None:
+    """Of B nothing is evaluated, and its numbers stay in the tables; sums that two trials share are evaluated."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = OWN.replace('file = "{sum:total.txt}"', 'file = "{sum:total.txt}", gain = "{gain}"')
+    file.write_text(f"{text}[vary]\ngain = [1, 3]\n", encoding="utf-8")
+    assert cohort(file, out, scheduler).code == 0
+    table = (out / "tables" / "sum" / "total.parquet").read_bytes()
+    for chosen, count in (
+        (("--from", "sum", "--only", "subject=A"), [0, 2, 4, 1, 1]),
+        (("--forget", "sum", "--only", "subject=A"), [0, 2, 0, 0, 0]),
+        (("--forget", "sum", "--only", "gain=3"), [0, 4, 0, 0, 0]),
+        (("--forget", "sum", "--only", "gain=1"), [0, 4, 0, 0, 0]),
+    ):
+        again = cohort(file, out, scheduler, *chosen)
+        assert again.code == 0 and new(again) == count, (chosen, new(again))
+        assert (
+            set(states(out)["state"]) == {"done"} and (out / "tables" / "sum" / "total.parquet").read_bytes() == table
+        )
+    (tmp_path / "A_1.txt").write_text("11", encoding="utf-8")
+    left = cohort(file, out, scheduler, "--forget", "sum", "--only", "subject=B")
+    assert left.code == 0 and states(out)["state"]["sum"].value_counts().to_dict() == {"done": 6, "not asked for": 2}
 
 
 def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, scheduler: str) -> None:
@@ -158,6 +190,56 @@ def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, sc
     assert found["tests_study_chained_add", "B"] == "done" and found["sum", "A 2"] == "not asked for"
 
 
+def test_what_failed_is_redone_after_a_run_that_left_it(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, {**NUMBERS, "A_1": "wrong", "B_1": "wrong"}), tmp_path / "out"
+    assert cohort(file, out, scheduler).code == 2
+    assert cohort(file, out, scheduler, "--only", "subject=A", "--only", "trial=2").code == 0
+    found = states(out)
+    assert found["state"]["sum", "A 1"] == found["state"]["sum", "B 1"] == "input error"
+    assert "B_1.txt: is wrong" in found["words"]["sum", "B 1"]
+    for name in ("A_1", "B_1"):
+        (tmp_path / f"{name}.txt").write_text("30", encoding="utf-8")
+    redone = cohort(file, out, scheduler, "--redo-failed")
+    assert redone.code == 0 and set(states(out)["state"]) == {"done"}, redone.err
+    (out / "trials.csv").write_text("odd\n1\n", encoding="utf-8")
+    assert cohort(file, out, scheduler).code == 0, "no table of a run before it is no hindrance"
+
+
+def test_files_of_steps_are_found_in_values_and_swept_options(tmp_path: Path, scheduler: str) -> None:
+    """The total of a subject's offset is summed, however its name comes into the options."""
+    numbers = {"A_still": "1", "A_1": "10"}
+    begins = 'analysis = "tests.study.chained:add"\nfiles = "{subject}_{trial}.txt"\nwhere = { trial = ["1"] }\n'
+    step = '[steps.offset]\nanalysis = "tests.study.chained:add"\nper = ["subject"]\nwhere = { trial = ["still"] }\n'
+    step += 'options = { files = ["{file}"] }\n'
+    file = chain(tmp_path, numbers)
+    for k, more in enumerate(
+        (
+            '[sweep]\nfiles = ["{offset:total.txt}"]\n',
+            '[options]\nfiles = ["{what}"]\n[vary]\nwhat = ["{offset:total.txt}"]\n',
+            '[options]\nfiles = ["{{which}:total.txt}"]\n[vary]\nwhich = ["offset"]\n',
+        )
+    ):
+        file.write_text(f"{begins}{more}{step}", encoding="utf-8")
+        done = cohort(file, tmp_path / f"out{k}", scheduler)
+        assert done.code == 0, done.err
+        (total,) = pd.read_parquet(next(tmp_path.glob(f"out{k}/tables/tests_*/total.parquet")))["total [N]"]
+        assert total == 1.0
+        file.write_text(f"{begins}{more}{step}".replace("{offset:", "{ofset:").replace('"offset"', '"ofset"'), "utf-8")
+        with pytest.raises(InputError, match="there is no step 'ofset' before it; steps are offset"):
+            runs_of(read_study_file(file))
+
+
+def test_lines_name_the_step(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, {"A_still": "1", "A_1": "10", "B_still": "1", "B_1": "10 warns"}), tmp_path / "out"
+    text = OWN.replace('file = "{sum:total.txt}"', 'file = "{file}"').replace("{sum:total.txt}", "{offset:total.txt}")
+    file.write_text(text, encoding="utf-8")
+    done = cohort(file, out, scheduler)
+    assert done.code == 0, done.err
+    for step in ("2 of 2 trials of offset", "2 of 2 trials of sine", "2 of 2 trials of tests.study.chained:add"):
+        assert f"{step} have results" in done.out
+    assert "sine of B 1: rms 10 mm, 20 mm at most" in done.warnings
+
+
 def test_pages_and_figures_can_be_left_out(tmp_path: Path, scheduler: str) -> None:
     numbers = {"A_still": "1", "A_1": "10", "A_2": "20"}
     file, out = chain(tmp_path, numbers), tmp_path / "out"
@@ -165,11 +247,16 @@ def test_pages_and_figures_can_be_left_out(tmp_path: Path, scheduler: str) -> No
     def endings() -> set[str]:
         return {each.suffix for folder in states(out).loc["sum"]["folder"] for each in (out / folder).iterdir()}
 
+    def linked() -> list[str]:
+        return re.findall(r'href="(results/[^"]+)"', (out / "report.html").read_text(encoding="utf-8"))
+
     assert cohort(file, out, scheduler).code == 0 and ".html" in endings()
+    assert len(linked()) == 7 and all((out / each).is_file() for each in linked())
     chain(tmp_path, numbers, "pages = false\nfigures = false\n")
     bare = cohort(file, out, scheduler)
     assert bare.code == 0 and sum(new(bare)) == 7 and ".html" not in endings()
     assert {".csv", ".parquet", ".txt", ".json"} == endings()
+    assert len(linked()) == 2 and all((out / each).is_file() for each in linked()), "two write theirs by themselves"
 
 
 @pytest.mark.parametrize(
