@@ -35,6 +35,7 @@ from scipy.stats import chi2
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
 from geocontact.effects.measurement.clock_slip import WHEN
+from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import BLOCKS, block_edges
 from geocontact.gap.levels import DEVIATIONS, FEW, LEADING, LEFT_OVER, PHASES, SLIGHT, SURE, TURNS, WORTH_NAMING
@@ -45,7 +46,9 @@ from geocontact.gap.reduction.repeats import axes_of, shared
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
-ZERO = "wandering_zero"
+ZERO, LOST = "wandering_zero", "lost_samples"
+MOST = FEW * int(LONGEST)
+"""Samples that a slip is looked for within; more take time and would be seen by eye."""
 Columns = Sequence[Float[np.ndarray, " _"]]
 Presence = Sequence[Bool[np.ndarray, " _"]]
 
@@ -144,36 +147,46 @@ def wandering_zero(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
 
 @dataclass(frozen=True)
 class Slip:
-    """By how many samples a trial runs ahead from a place on, the squared error then, and without; its nats."""
+    """By how many samples a trial runs ahead from a place on; its nats.
+
+    Squared errors of the same samples: `after` with it, `before` at the best constant delay, `unmoved` at none.
+    """
 
     samples: int
     place: int
     after: float
     before: float
+    unmoved: float
     nats: float
 
 
 def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"], most: int) -> Slip | None:
     """The likeliest slip of a trial of at most so many samples; None where no slip is likelier. NaN: not measured."""
     n, at = len(measured), np.arange(len(measured))
-    moves = np.arange(-most, most + 1)
-    squares = np.array([(measured - predicted[np.clip(at + m, 0, n - 1)]) ** 2 for m in moves])
-    squares = np.where(np.isfinite(squares).all(axis=0), squares, 0.0)
-    until = np.cumsum(squares, axis=1)
-    whole = until[most] + until[:, -1:] - until
+    gone = np.insert(np.cumsum(~np.isfinite(predicted)), 0, 0)  # samples count that have a prediction at every move
+    there = np.isfinite(measured) & (gone[np.minimum(at + most + 1, n)] == gone[np.maximum(at - most, 0)])
+
+    def until(move: int) -> Float[np.ndarray, " n"]:
+        left = measured - predicted[np.clip(at + move, 0, n - 1)]
+        return np.cumsum(np.where(there, left, 0.0) ** 2)
+
     first, last = (round(share * (n - 1)) for share in WHEN)
-    row, column = np.unravel_index(int(np.argmin(whole[:, first:last])), whole[:, first:last].shape)
-    place = first + int(column)
-    after, before = float(whole[row, place]), float(until[:, -1].min())
-    if row == most or not after > 0.0:
+    still = until(0)
+    after, row, place, before = np.inf, 0, first, np.inf
+    for move in range(-most, most + 1):
+        own = until(move)
+        whole = (still + own[-1] - own)[first:last]
+        best = int(np.argmin(whole))
+        if whole[best] < after:
+            after, row, place = float(whole[best]), move, first + best
+        before = min(before, float(own[-1]))
+    if row == 0 or not after > 0.0:
         return None
-    shift = np.where(at > place, int(moves[row]), 0)
-    left = measured - predicted[np.clip(at + shift, 0, n - 1)]
-    left = left[np.isfinite(left)]
+    left = (measured - predicted[np.clip(at + np.where(at > place, row, 0), 0, n - 1)])[there]
     alike = float(np.clip((left[1:] @ left[:-1]) / max(float(left @ left), 1e-300), 0.0, 1.0 - SLIGHT))
     independent = len(left) * (1.0 - alike) / (1.0 + alike)
-    nats = 0.5 * independent * float(np.log(before / after)) - float(np.log(n * len(moves)))
-    return Slip(int(moves[row]), place, after, before, nats)
+    nats = 0.5 * independent * float(np.log(before / after)) - float(np.log(n * (2 * most + 1)))
+    return Slip(row, place, after, before, float(still[-1]), nats)
 
 
 def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
@@ -192,7 +205,7 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     slips: list[Slip | None] = []
     for _ in range(TURNS):
         moved = [p + j[:, c] @ shift for p, j in zip(predicted, jacobian, strict=True)]
-        slips = [slip_of(y, p, max(len(y) // BLOCKS, 1)) for y, p in zip(measured, moved, strict=True)]
+        slips = [slip_of(y, p, max(min(len(y) // BLOCKS, MOST), 1)) for y, p in zip(measured, moved, strict=True)]
         if not any(slips):
             return None
         rows, columns = [], []
@@ -213,12 +226,9 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"
-    before = sum(float(np.nansum((y - p) ** 2)) for y, p in zip(measured, predicted, strict=True))
-    after = sum(
-        one.after if one else float(np.nansum((y - p) ** 2)) for y, p, one in zip(measured, moved, slips, strict=True)
-    )
+    taken = min(sum(one.unmoved - one.after for _, one in kept), square_of(rest.residuals, rest.present, c))
     sure = max(float(np.exp(-one.nats)) for _, one in kept)
-    return Unmodelled("lost_samples", name, before - after, sure, words, None, told)
+    return Unmodelled(LOST, name, taken, sure, words, None, told)
 
 
 @dataclass(frozen=True, eq=False)
