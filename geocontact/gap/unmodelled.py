@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.stats import chi2
+from scipy.stats import chi2, norm, t
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
@@ -51,7 +51,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
 ZERO, LOST = "wandering_zero", "lost_samples"
 MOST = FEW * int(LONGEST)
-"""Samples that a slip is looked for within; more take time and would be seen by eye."""
+"""Samples that a trial may lose at the most."""
 Columns = Sequence[Float[np.ndarray, " _"]]
 Presence = Sequence[Bool[np.ndarray, " _"]]
 
@@ -304,7 +304,9 @@ class Regions:
         swells = np.repeat([swollen(alike, width) for width in widths], len(self.states))
         count, square = len(self.sums), (self.sums**2).sum(axis=(0, 1))
         noise = ((self.sums - self.sums.mean(axis=0)) ** 2).sum(axis=(0, 1)) * count / max(count - 1, 1)
-        spread = np.sqrt(np.maximum(swells * noise / np.maximum(square, 1e-300), 1.0))
+        freedom = np.maximum((count - 1) * np.repeat(widths, len(self.states)) / swells, 1.0)
+        few = t.isf(norm.sf(DEVIATIONS), freedom) / DEVIATIONS  # noise is known from as few that are independent
+        spread = np.maximum(few * np.sqrt(swells * noise / np.maximum(square, 1e-300)), 1.0)
         (chance,) = family_wise([self.sums.reshape(-1, self.sums.shape[-1])], spread)
         return chance
 
