@@ -91,6 +91,12 @@ def grows(budget: Budget) -> bool:
     return any(e.ci95[1] < 0.0 and e.share <= -WORTH_NAMING for e in (one.parts["effects"] for one in budget.values()))
 
 
+def withdrawn(found: Attribution) -> Attribution:
+    """Without what is named, which may only imitate something else; its verdict is unknown."""
+    label, why = found.answer.chosen.label, "it takes less than what is described without a model, and may imitate it"
+    return replace(found, answer=_unnamed(found, True), objections={**found.objections, label: why})
+
+
 def _unnamed(found: Attribution, gap: bool) -> Answer:
     """Nothing named: no gap, or unknown where there is one; it has the effects' probability."""
     said, instead = found.answer, "unknown" if gap else "none"

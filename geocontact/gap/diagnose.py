@@ -26,7 +26,16 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
-from geocontact.gap.budget_verdict import by_budget, grows, named_beside, partial, sure_beside, totals, with_gap
+from geocontact.gap.budget_verdict import (
+    by_budget,
+    grows,
+    named_beside,
+    partial,
+    sure_beside,
+    totals,
+    with_gap,
+    withdrawn,
+)
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
@@ -50,7 +59,7 @@ from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.model_comparison import Contender, base_contender
 from geocontact.gap.selection.verdict import Answer, with_lapses
-from geocontact.gap.unmodelled import ZERO, unmodelled
+from geocontact.gap.unmodelled import ZERO, imitated, unmodelled
 from geocontact.identify.intervals.quantile_intervals import ENDS
 
 
@@ -138,6 +147,12 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
     at("what the error consists of")
     found, errors, budget, part = budgeted(found, errors)
     beside = unmodelled(found, errors, budget)
+    if found.answer.effects and imitated(beside, errors, found.problem):
+        found, part = withdrawn(found), None
+        errors = errors_of(found)
+        budget = _budget(found, errors)
+        found = replace(found, answer=by_budget(found, budget, errors))
+        beside = unmodelled(found, errors, budget)
     if any(one.kind != ZERO for one in beside):
         found = replace(found, answer=with_gap(found.answer))
     found = replace(found, answer=with_lapses(found.answer, found.offered))

@@ -15,12 +15,14 @@ counted as far as they are independent (Bartlett 1935, J. R. Stat. Soc. 98, 536)
 meanwhile.
 
 *Unrecorded load*: a window of the phase, in all states or in one (a quarter of an input's range, on the way up or
-down), in which a load repeats from trial to trial (`gap.reduction.repeats`). Signs of blocks turned at random make the
-p-value hold for all windows, states and channels that were looked at (Nichols & Holmes 2002). Where nothing else is
-missing a load is described from odds of 400 to 1 on, so that it is no false alarm.
+down), in which a residual repeats from trial to trial (`gap.reduction.repeats`): a load, or the form of the model.
+Signs of blocks turned at random make the p-value hold for all windows, states and channels that were looked at (Nichols
+& Holmes 2002), where blocks without what repeats are correlated, of sums that scatter as these make them (Bartlett
+1935); so do zeros. Where nothing else is missing it is described from odds of 400 to 1 on.
 
 Either is described only where it makes `WORTH_NAMING` of the channel's squared error. The first two must make all but
-`LEFT_OVER` of what the base model misses beyond noise, the third is in what the answer leaves.
+`LEFT_OVER` of what is missed beyond noise: by the base model where they take more than what is named, which then may
+only imitate them and is withdrawn; else by the answer, as the third is.
 """
 
 from __future__ import annotations
@@ -30,13 +32,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.stats import chi2
+from scipy.stats import chi2, norm, t
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
 from geocontact.effects.measurement.clock_slip import WHEN
+from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import BLOCKS, block_edges
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.levels import DEVIATIONS, FEW, LEADING, LEFT_OVER, PHASES, SLIGHT, SURE, TURNS, WORTH_NAMING
 from geocontact.gap.localise.gap_map import family_wise
 from geocontact.gap.reduction.error_budget import ChannelBudget, deviations
@@ -45,7 +49,9 @@ from geocontact.gap.reduction.repeats import axes_of, shared
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
-ZERO = "wandering_zero"
+ZERO, LOST = "wandering_zero", "lost_samples"
+MOST = FEW * int(LONGEST)
+"""Samples that a trial may lose at the most."""
 Columns = Sequence[Float[np.ndarray, " _"]]
 Presence = Sequence[Bool[np.ndarray, " _"]]
 
@@ -82,11 +88,10 @@ def unmodelled(
     said, problem = found.answer, found.problem
     if said.verdict == "explained" or found.data_error is not None:
         return ()
-    present, model = problem.recorded.present, said.chosen.judged.model
-    low = found.clean.with_lower_noise(said.chosen.judged.noise)
-    varied = [each * low.varies for each in found.clean.varied(model.jacobian)]
-    base = Rest(errors.before, present, varied, problem.floor)
-    rest = replace(base, residuals=errors.after) if said.effects else base
+    present = problem.recorded.present
+    bare = replace(found, answer=replace(said, chosen=found.base))
+    base = rest_of(bare, errors.before)
+    rest = rest_of(found, errors.after) if said.effects else base
     cleared = rest.cleared()
     made: list[Unmodelled] = []
     for c, name in enumerate(problem.system.outputs):
@@ -94,13 +99,41 @@ def unmodelled(
         if name not in budget or square <= 0.0:
             continue
         noise = sum(int(there[:, c].sum()) for there in present) * noise_of(errors, found, c, budget[name])
-        least = max(WORTH_NAMING * square, (1.0 - LEFT_OVER) * (square - noise))
-        faults = [wandering_zero(found, base, c), lost_samples(found, base, c)]
-        own = [replace(one, share=one.share / square) for one in faults if one is not None and one.share >= least]
+        own = faults(bare, base, c, square, noise)
+        taken = 1.0 - square_of(rest.residuals, present, c) / square
+        if said.effects and not any(one.share > taken for one in own):
+            own = faults(found, rest, c, square, noise)
         loads = () if own else loads_by_place(found, cleared, c, square)
         # a verdict of no gap stands against what chance makes in one of 400 such cases
         made += own or [one for one in loads if said.verdict != "no_gap" or one.p_value <= np.exp(-SURE)]
     return tuple(sorted(made, key=lambda one: -one.share))
+
+
+def rest_of(found: Attribution, residuals: Sequence[Float[np.ndarray, "_ c"]]) -> Rest:
+    """These residuals, with what a usual deviation changes in the model of the answer."""
+    judged = found.answer.chosen.judged
+    low = found.clean.with_lower_noise(judged.noise)
+    varied = [each * low.varies for each in found.clean.varied(judged.model.jacobian)]
+    return Rest(residuals, found.problem.recorded.present, varied, found.problem.floor)
+
+
+def faults(found: Attribution, rest: Rest, c: int, square: float, noise: float) -> list[Unmodelled]:
+    """A zero and lost samples that make what is left beyond noise; `square` is that of the base model."""
+    beyond = square_of(rest.residuals, rest.present, c) - noise
+    least = max(WORTH_NAMING * square, (1.0 - LEFT_OVER) * beyond)
+    both = (wandering_zero(found, rest, c), lost_samples(found, rest, c))
+    return [replace(one, share=one.share / square) for one in both if one is not None and one.share >= least]
+
+
+def imitated(beside: Sequence[Unmodelled], errors: RawInputErrors, problem: Problem) -> bool:
+    """Whether a fault takes more of its channel's squared error than the model of the answer, which may imitate it."""
+    present, names = problem.recorded.present, problem.system.outputs
+    for one in beside:
+        c = names.index(one.channel)
+        left = square_of(errors.after, present, c) / square_of(errors.before, present, c)
+        if one.kind in (ZERO, LOST) and one.share > 1.0 - left:
+            return True
+    return False
 
 
 def square_of(residuals: Sequence[Float[np.ndarray, "_ c"]], present: Sequence[np.ndarray], c: int) -> float:
@@ -120,16 +153,17 @@ def noise_of(errors: RawInputErrors, found: Attribution, c: int, budget: Channel
 def wandering_zero(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     """A constant of each trial's own in a channel; `share` is still the sum of squares that it takes."""
     name, unit = found.problem.system.outputs[c], found.problem.system.unit(found.problem.system.outputs[c])
-    sizes, spread, usual, counts = [], [], [], []
+    sizes, usual, counts, blocks = [], [], [], []
     for residual, moved, there in zip(rest.residuals, rest.varied, rest.present, strict=True):
         own = residual[there[:, c], c]
         if len(own) < BLOCKS:
             return None
         sizes.append(float(own.mean()))
-        sums = np.add.reduceat(own - sizes[-1], block_edges(len(own)))
-        spread.append(float(np.sqrt(sums @ sums)) / len(own))
+        blocks.append(np.add.reduceat(own - sizes[-1], block_edges(len(own))) / len(own))
         usual.append(float(np.linalg.norm(moved[there[:, c], c].mean(axis=0))))
         counts.append(len(own))
+    mean_of = swollen(memory(np.array(blocks)), BLOCKS) / BLOCKS  # variance of a mean, of that of a block
+    spread = np.linalg.norm(blocks, axis=1) * np.sqrt(BLOCKS * mean_of / max(1.0 - mean_of, SLIGHT))
     off, n = np.array(sizes) - np.average(sizes, weights=counts), np.array(counts)
     made = np.maximum(np.hypot(spread, usual), 1e-300)
     nats = float(-chi2.logsf(float(((off / made) ** 2).sum()), max(len(off) - 1, 1)))
@@ -142,38 +176,63 @@ def wandering_zero(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     return Unmodelled(ZERO, name, taken, float(np.exp(-nats)), words, None, trials)
 
 
+def memory(blocks: Float[np.ndarray, "i k"]) -> float:
+    """Correlation of neighbouring blocks of trials, without its bias where each has its own mean (Kendall 1954)."""
+    count = blocks.shape[1]
+    square = max(float((blocks**2).sum()) / count, 1e-300)
+    seen = float((blocks[:, 1:] * blocks[:, :-1]).sum()) / (count - 1) / square
+    of_mean = 1.0 + seen  # beside twice the correlation, of the quotient
+    return float(np.clip(seen + (2.0 * seen + of_mean) / count, 0.0, 1.0 - SLIGHT))
+
+
+def swollen(alike: float, count: int) -> float:
+    """Variance of the sum of so many blocks over that of independent ones, their correlation a power of the lag."""
+    lags = np.arange(1, count)
+    return 1.0 + 2.0 * float(((1.0 - lags / count) * alike**lags).sum())
+
+
 @dataclass(frozen=True)
 class Slip:
-    """By how many samples a trial runs ahead from a place on, the squared error then, and without; its nats."""
+    """By how many samples a trial runs ahead from a place on; its nats.
+
+    Squared errors of the same samples: `after` with it, `before` at the best constant delay, `unmoved` at none.
+    """
 
     samples: int
     place: int
     after: float
     before: float
+    unmoved: float
     nats: float
 
 
 def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"], most: int) -> Slip | None:
     """The likeliest slip of a trial of at most so many samples; None where no slip is likelier. NaN: not measured."""
     n, at = len(measured), np.arange(len(measured))
-    moves = np.arange(-most, most + 1)
-    squares = np.array([(measured - predicted[np.clip(at + m, 0, n - 1)]) ** 2 for m in moves])
-    squares = np.where(np.isfinite(squares).all(axis=0), squares, 0.0)
-    until = np.cumsum(squares, axis=1)
-    whole = until[most] + until[:, -1:] - until
+    gone = np.insert(np.cumsum(~np.isfinite(predicted)), 0, 0)  # samples count that have a prediction at every move
+    there = np.isfinite(measured) & (gone[np.minimum(at + most + 1, n)] == gone[np.maximum(at - most, 0)])
+
+    def until(move: int) -> Float[np.ndarray, " n"]:
+        left = measured - predicted[np.clip(at + move, 0, n - 1)]
+        return np.cumsum(np.where(there, left, 0.0) ** 2)
+
     first, last = (round(share * (n - 1)) for share in WHEN)
-    row, column = np.unravel_index(int(np.argmin(whole[:, first:last])), whole[:, first:last].shape)
-    place = first + int(column)
-    after, before = float(whole[row, place]), float(until[:, -1].min())
-    if row == most or not after > 0.0:
+    still = until(0)
+    after, row, place, before = np.inf, 0, first, np.inf
+    for move in range(-most, most + 1):
+        own = until(move)
+        whole = (still + own[-1] - own)[first:last]
+        best = int(np.argmin(whole))
+        if whole[best] < after:
+            after, row, place = float(whole[best]), move, first + best
+        before = min(before, float(own[-1]))
+    if row == 0 or not after > 0.0:
         return None
-    shift = np.where(at > place, int(moves[row]), 0)
-    left = measured - predicted[np.clip(at + shift, 0, n - 1)]
-    left = left[np.isfinite(left)]
+    left = (measured - predicted[np.clip(at + np.where(at > place, row, 0), 0, n - 1)])[there]
     alike = float(np.clip((left[1:] @ left[:-1]) / max(float(left @ left), 1e-300), 0.0, 1.0 - SLIGHT))
     independent = len(left) * (1.0 - alike) / (1.0 + alike)
-    nats = 0.5 * independent * float(np.log(before / after)) - float(np.log(n * len(moves)))
-    return Slip(int(moves[row]), place, after, before, nats)
+    nats = 0.5 * independent * float(np.log(before / after)) - float(np.log(n * (2 * most + 1)))
+    return Slip(row, place, after, before, float(still[-1]), nats)
 
 
 def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
@@ -192,7 +251,7 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     slips: list[Slip | None] = []
     for _ in range(TURNS):
         moved = [p + j[:, c] @ shift for p, j in zip(predicted, jacobian, strict=True)]
-        slips = [slip_of(y, p, max(len(y) // BLOCKS, 1)) for y, p in zip(measured, moved, strict=True)]
+        slips = [slip_of(y, p, max(min(len(y) // BLOCKS, MOST), 1)) for y, p in zip(measured, moved, strict=True)]
         if not any(slips):
             return None
         rows, columns = [], []
@@ -213,12 +272,9 @@ def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"
-    before = sum(float(np.nansum((y - p) ** 2)) for y, p in zip(measured, predicted, strict=True))
-    after = sum(
-        one.after if one else float(np.nansum((y - p) ** 2)) for y, p, one in zip(measured, moved, slips, strict=True)
-    )
+    taken = min(sum(one.unmoved - one.after for _, one in kept), square_of(rest.residuals, rest.present, c))
     sure = max(float(np.exp(-one.nats)) for _, one in kept)
-    return Unmodelled("lost_samples", name, before - after, sure, words, None, told)
+    return Unmodelled(LOST, name, taken, sure, words, None, told)
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,6 +294,22 @@ class Regions:
         """Window and state of a region."""
         window, state = divmod(place, len(self.states))
         return self.windows[window], self.states[state]
+
+    def p_values(self) -> Float[np.ndarray, " r"]:
+        """p of each region, as noise of the residual's memory makes it; see `memory`."""
+        phases = slice(0, PHASES * len(self.states), len(self.states))  # each alone, in all states
+        seen = np.maximum(self.counts[:, phases].sum(axis=1), 1.0)
+        alone = self.sums[:, :, phases].sum(axis=-1) / seen[:, None]
+        alike = memory(alone - alone.mean(axis=0))
+        widths = [int(np.ceil((end - begin) * BLOCKS / PHASES)) for begin, end in self.windows]
+        swells = np.repeat([swollen(alike, width) for width in widths], len(self.states))
+        count, square = len(self.sums), (self.sums**2).sum(axis=(0, 1))
+        noise = ((self.sums - self.sums.mean(axis=0)) ** 2).sum(axis=(0, 1)) * count / max(count - 1, 1)
+        freedom = np.maximum((count - 1) * np.repeat(widths, len(self.states)) / swells, 1.0)
+        few = t.isf(norm.sf(DEVIATIONS), freedom) / DEVIATIONS  # noise is known from as few that are independent
+        spread = np.maximum(few * np.sqrt(swells * noise / np.maximum(square, 1e-300)), 1.0)
+        (chance,) = family_wise([self.sums.reshape(-1, self.sums.shape[-1])], spread)
+        return chance
 
 
 def regions(residuals: Columns, present: Presence, axes: Mapping[str, Sequence[Int[np.ndarray, " _"]]]) -> Regions:
@@ -280,8 +352,7 @@ def loads_by_place(
     axes, present = axes_of(trials, system), [there[:, c] for there in problem.recorded.present]
     all_of = regions([r[:, c] for r in cleared], present, axes)
     size = shared(all_of.sums.sum(axis=1)[None], all_of.counts)[0] / square
-    (chance,) = family_wise([all_of.sums.reshape(-1, all_of.sums.shape[-1])])
-    p_values = np.minimum(1.0, len(system.outputs) * chance)
+    p_values = np.minimum(1.0, len(system.outputs) * all_of.p_values())
     able = (p_values <= 1.0 - CONFIDENCE) & (size >= WORTH_NAMING) & (all_of.counts > 0.0).all(axis=0)
     for _ in range(LEADING):
         if not able.any():
@@ -299,7 +370,8 @@ def loads_by_place(
             where.append(
                 f"{axis} {own.min():.3g} to {own.max():.3g} {system.unit(axis)}{('', ', falling', ', rising')[way + 1]}"
             )
-        words = f"unrecorded load in {name}, {', '.join(where)}: {mean:+.3g} {system.unit(name)}"
+        size_there = f"{mean:+.3g} {system.unit(name)}"
+        words = f"a load that was not recorded, or the model's form, in {name}, {', '.join(where)}: {size_there}"
         phase = (begin / PHASES, end / PHASES)
         yield Unmodelled("unrecorded_load", name, float(size[best]), float(p_values[best]), words, phase, {})
         clear = np.array([b <= begin or a >= end for a, b in all_of.windows])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from unittest.mock import Mock
 
@@ -10,7 +11,7 @@ import pytest
 
 from geocontact.data.diagnosis import BudgetPart
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.budget_verdict import amplitude_left, by_budget, closed, differ, named_beside, totals
+from geocontact.gap.budget_verdict import amplitude_left, by_budget, closed, differ, named_beside, totals, with_gap
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.levels import LEFT_OVER, WORTH_NAMING
 from geocontact.gap.reduction.error_budget import ChannelBudget
@@ -63,6 +64,15 @@ def test_an_error_of_more_than_twice_its_floor_is_no_no_gap() -> None:
     found, errors = given("explained", "damping")
     said = verdict(found, errors, channel(0.05, 0.8, 0.0))
     assert said.verdict == "unknown" and said.effects == ()
+
+
+def test_a_gap_beside_no_gap_is_unknown_and_others_stay() -> None:
+    found, _ = given("no_gap")
+    said = with_gap(replace(found.answer, probabilities={"none": 0.6, "unknown": 0.1, "damping": 0.3}))
+    assert said.verdict == "unknown" and said.probabilities == {"unknown": 0.7, "damping": 0.3, "none": 0.0}
+    for verdict_of in ("explained", "unknown", "unresolved"):
+        found, _ = given(verdict_of)
+        assert with_gap(found.answer) is found.answer
 
 
 def test_no_budget_closes_nothing() -> None:

@@ -151,6 +151,22 @@ def test_the_interval_has_what_all_trials_show(problem: Problem) -> None:
     assert wider.low < usual.low and wider.high == usual.high
 
 
+def test_a_spread_about_two_means_has_two_degrees_less(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Student's quantile of four trials, two on each side, is that of 2 degrees of freedom: 4.30, not 3.18."""
+    judged = named(problem, "damping")
+    errors = replace(raw_input_errors(problem, problem, judged, None), told_by=4)
+    widths: list[float] = []
+
+    def seen(ratio: float, spread: float, divisor: float = 0.0) -> tuple[float, float, float]:
+        widths.append(spread)
+        return between(ratio, spread, divisor)
+
+    monkeypatch.setattr("geocontact.gap.reduction.error_reduction._gone", lambda *_: (1.0, 0.1))
+    monkeypatch.setattr("geocontact.gap.reduction.error_reduction.between", seen)
+    error_reduction_of(errors, problem, judged, True, None)
+    assert widths[0] * errors.left[0][0] == pytest.approx(4.3027 * 0.1, rel=1e-4)
+
+
 def test_what_held_out_trials_show_is_inside_the_interval(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also where the best fit says otherwise, as it does where something else is missing as well."""
     judged = named(problem, "damping")

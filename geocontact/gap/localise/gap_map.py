@@ -303,14 +303,19 @@ def systematic(
     return np.asarray(np.maximum((times @ sums) ** 2 - times @ sums**2, 0.0) / np.maximum(times @ counts, 1.0))
 
 
-def family_wise(tables: list[Float[np.ndarray, "k _"]]) -> list[Float[np.ndarray, " _"]]:
-    """p of every column of block sums, by flipping the signs of all blocks of a map."""
+def family_wise(
+    tables: list[Float[np.ndarray, "k _"]], spread: Float[np.ndarray, " _"] | float = 1.0
+) -> list[Float[np.ndarray, " _"]]:
+    """p of every column of block sums, by flipping the signs of all blocks of a map.
+
+    `spread` is by how much more a column's sum scatters than where its blocks are independent.
+    """
     together = np.concatenate(tables, axis=1)
     size = np.sqrt((together**2).sum(axis=0))
     size[size == 0.0] = np.inf
     signs = np.random.default_rng(0).choice([-1.0, 1.0], (DRAWS, len(together)))
     largest = np.abs(signs @ (together / size)).max(axis=1)
-    statistic = np.abs((together / size).sum(axis=0))
+    statistic = np.abs((together / size).sum(axis=0)) / spread
     p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + DRAWS)
     return np.split(p_values, np.cumsum([table.shape[1] for table in tables])[:-1])
 

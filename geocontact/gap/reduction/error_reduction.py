@@ -118,7 +118,7 @@ def error_reduction_of(
     from scipy.stats import t
 
     count, present = len(problem.calibration.trials), problem.recorded.present
-    student = float(t.ppf(ENDS[1], max(errors.told_by - 1, 1)))  # a spread that is known from as few trials
+    student = float(t.ppf(ENDS[1], max(errors.told_by - 2, 1)))  # a spread about two means of as few trials
     heard = np.zeros(len(problem.system.outputs))
     if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])

@@ -18,7 +18,16 @@ from geocontact.analyses.gap.diagnose.curves import budget_bars, gap_figures
 from geocontact.analyses.gap.diagnose.show import gap_page, gap_table, reading
 from geocontact.analyses.gap.nats import ahead_words, odds_words
 from geocontact.chain.system import System
-from geocontact.data.diagnosis import ChannelGap, DataErrorFound, Diagnosis, Estimate, Partial, Ranked, Where
+from geocontact.data.diagnosis import (
+    BudgetPart,
+    ChannelGap,
+    DataErrorFound,
+    Diagnosis,
+    Estimate,
+    Partial,
+    Ranked,
+    Where,
+)
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell
 from geocontact.gap.budget_verdict import partial
@@ -491,6 +500,17 @@ def test_two_effects_are_missing_together() -> None:
 )
 def test_other_verdicts(verdict: str, ambiguity: tuple[str, ...], words: list[str]) -> None:
     assert said(verdict=verdict, effects=(), ambiguity=ambiguity) == words
+
+
+def test_no_gap_says_how_much_its_budget_leaves_open() -> None:
+    """30 % that are no stated noise may be noise; 9 % are below what is worth a name."""
+    parts = {share: {"force": {"unexplained": BudgetPart(share, (0.0, 0.5))}} for share in (0.3, 0.09)}
+    nothing = "nothing is missing beyond noise and trial-to-trial variation"
+    much, little = (said(verdict="no_gap", effects=(), budget=parts[share]) for share in (0.3, 0.09))
+    assert much[:1] == little[:1] == [nothing] and len(much) == len(little) + 1
+    assert much[1] == (
+        "the budget leaves 30 % of the squared error of force open: that less than 10 % is missing is not sure"
+    )
 
 
 def test_what_is_explained_in_part_is_said() -> None:

@@ -161,7 +161,19 @@ def _named(d: Diagnosis, some: Sequence[str], what: str) -> list[str]:
 
 
 def _no_gap(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
-    return ["nothing is missing beyond noise and trial-to-trial variation", *_not_ruled_out(d), *_absorbed(d)]
+    nothing = "nothing is missing beyond noise and trial-to-trial variation"
+    return [nothing, *_open(d), *_not_ruled_out(d), *_absorbed(d)]
+
+
+def _open(d: Diagnosis) -> list[str]:
+    """How much of a channel's squared error is not known to be noise although nothing is found missing."""
+    parts = ((name, one["unexplained"].share) for name, one in d.budget.items() if "unexplained" in one)
+    return [
+        f"the budget leaves {percent(share)} % of the squared error of {name} open: that less than "
+        f"{percent(WORTH_NAMING)} % is missing is not sure"
+        for name, share in parts
+        if share >= WORTH_NAMING
+    ]
 
 
 def _unknown(d: Diagnosis, cells: Sequence[Cell]) -> list[str]:
