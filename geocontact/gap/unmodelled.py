@@ -57,7 +57,7 @@ Presence = Sequence[Bool[np.ndarray, " _"]]
 
 
 @dataclass(frozen=True, eq=False)
-class Rest:
+class AnswerResiduals:
     """What an answer leaves of all trials, calibration first.
 
     Parameters
@@ -109,15 +109,15 @@ def unmodelled(
     return tuple(sorted(made, key=lambda one: -one.share))
 
 
-def rest_of(found: Attribution, residuals: Sequence[Float[np.ndarray, "_ c"]]) -> Rest:
+def rest_of(found: Attribution, residuals: Sequence[Float[np.ndarray, "_ c"]]) -> AnswerResiduals:
     """These residuals, with what a usual deviation changes in the model of the answer."""
     judged = found.answer.chosen.judged
     low = found.clean.with_lower_noise(judged.noise)
     varied = [each * low.varies for each in found.clean.varied(judged.model.jacobian)]
-    return Rest(residuals, found.problem.recorded.present, varied, found.problem.floor)
+    return AnswerResiduals(residuals, found.problem.recorded.present, varied, found.problem.floor)
 
 
-def faults(found: Attribution, rest: Rest, c: int, square: float, noise: float) -> list[Unmodelled]:
+def faults(found: Attribution, rest: AnswerResiduals, c: int, square: float, noise: float) -> list[Unmodelled]:
     """A zero and lost samples that make what is left beyond noise; `square` is that of the base model."""
     beyond = square_of(rest.residuals, rest.present, c) - noise
     least = max(WORTH_NAMING * square, (1.0 - LEFT_OVER) * beyond)
@@ -150,7 +150,7 @@ def noise_of(errors: RawInputErrors, found: Attribution, c: int, budget: Channel
     return float(np.mean(before**2)) * share
 
 
-def wandering_zero(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
+def wandering_zero(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelled | None:
     """A constant of each trial's own in a channel; `share` is still the sum of squares that it takes."""
     name, unit = found.problem.system.outputs[c], found.problem.system.unit(found.problem.system.outputs[c])
     sizes, usual, counts, blocks = [], [], [], []
@@ -235,7 +235,7 @@ def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"
     return Slip(row, place, after, before, float(still[-1]), nats)
 
 
-def lost_samples(found: Attribution, rest: Rest, c: int) -> Unmodelled | None:
+def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelled | None:
     """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]

@@ -20,7 +20,15 @@ from geocontact.gap.reduction.repeats import shared
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import Answer
-from geocontact.gap.unmodelled import MOST, Rest, loads_by_place, lost_samples, regions, slip_of, wandering_zero
+from geocontact.gap.unmodelled import (
+    MOST,
+    AnswerResiduals,
+    loads_by_place,
+    lost_samples,
+    regions,
+    slip_of,
+    wandering_zero,
+)
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
 from tests.gap.test_discrepancy_by_hand import bare
@@ -75,7 +83,7 @@ def said(sort: str) -> Diagnosis:
     return diagnose(case, system_of(case)).diagnosis
 
 
-def fitted(sort: str) -> tuple[Attribution, Rest]:
+def fitted(sort: str) -> tuple[Attribution, AnswerResiduals]:
     """The spring fitted to the calibration trials of a case by a straight line, and what it leaves of all trials."""
     case = CASES[sort]()
     system = system_of(case).scaled(case.calibration)
@@ -92,11 +100,11 @@ def fitted(sort: str) -> tuple[Attribution, Rest]:
     judged = bare(Judged, model=bare(Refit, jacobian=jacobian))
     answer = bare(Answer, chosen=bare(Contender, judged=judged))
     usual = np.array([0.04 * slope, 0.0087])
-    rest = Rest(residuals, recorded.present, [j * usual for j in jacobian], np.array([0.1]))
+    rest = AnswerResiduals(residuals, recorded.present, [j * usual for j in jacobian], np.array([0.1]))
     return bare(Attribution, problem=problem, answer=answer), rest
 
 
-def size_of(rest: Rest) -> float:
+def size_of(rest: AnswerResiduals) -> float:
     return sum(float((r**2).sum()) for r in rest.residuals)
 
 
@@ -239,7 +247,9 @@ def test_slow_noise_is_neither_a_load_nor_a_zero(memory: float) -> None:
         all_of = regions(noise, there, {"phase": [phase] * 4, "angle": [state] * 4})
         size = shared(all_of.sums.sum(axis=1)[None], all_of.counts)[0] / square
         loads += bool(((all_of.p_values() <= 0.05) & (size >= 0.1)).any())
-        rest = Rest([e[:, None] for e in noise], [np.ones((n, 1), bool)] * 4, [np.zeros((n, 1, 1))] * 4, np.ones(1))
+        rest = AnswerResiduals(
+            [e[:, None] for e in noise], [np.ones((n, 1), bool)] * 4, [np.zeros((n, 1, 1))] * 4, np.ones(1)
+        )
         zero = wandering_zero(of_four, rest, 0)
         zeros += zero is not None and zero.share >= 0.1 * square
     assert max(loads, zeros) <= 0.05 * cases
