@@ -10,7 +10,7 @@ import json
 from collections.abc import Iterable, Sequence
 
 from geocontact.analyses.catalogue import ENTRIES
-from geocontact.analyses.gap.case import GAIN, WIDER
+from geocontact.analyses.gap.case import CHANCE, GAIN
 from geocontact.analyses.mat.goodness import LOST, PALPATED
 from geocontact.analyses.motion.goodness import SLIDING
 from geocontact.analyses.motion.marker_tasks import FAR
@@ -90,7 +90,7 @@ OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advis
 | cylinder or sphere with a plane, `fit` | rms > {POOR:.0%} of the radius | the plane is as near |
 | sphere with that of its inner half, `fit` | {EDGE:.0%} of the radius, intervals apart | |
 | faces that look the other way, `fit` | {OTHER_SIDE:.0%} of the area | |
-| gain of a trial with others', `gap diagnose` | {GAIN:.0%}, {WIDER:g} of their spreads | |
+| gain of a trial with others', `gap diagnose` | {GAIN:.0%}, less likely than {CHANCE:.0%} | |
 | what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
 | landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 """

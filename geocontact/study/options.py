@@ -11,10 +11,12 @@ from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart, Side
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import TRIAL_LIMIT
-from geocontact.study.cluster import SYSTEMS
-from geocontact.study.limits import is_size
 
 LOCAL = "local"
+
+
+QUEUES = ("slurm", "pbs", "lsf", "sge")
+"""Queueing systems, as `study.cluster` starts jobs of them."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ class CohortOptions(Options):
     @property
     def queueing(self) -> bool:
         """Whether the work is done by jobs."""
-        return self.scheduler in SYSTEMS
+        return self.scheduler in QUEUES
 
     def refuse_impossible(self) -> None:
         """No process, no address, no size, and a choice without a value."""
@@ -116,11 +118,13 @@ class CohortOptions(Options):
         if odd is not None:
             raise InputError("", "`only`", f"{odd!r} has no value", "write for example subject=P1")
         if not self.local and not self.queueing and "://" not in self.scheduler:
-            remedy = f"write tcp://host:8786, {', '.join(SYSTEMS)}, or local"
+            remedy = f"write tcp://host:8786, {', '.join(QUEUES)}, or local"
             raise InputError("", "`scheduler`", f"{self.scheduler!r} is not an address", remedy)
         if not self.local and self.workers is not None:
             remedy = "write `jobs` into [cluster]" if self.queueing else "leave it out"
             raise InputError("", "`workers`", "has no effect with `scheduler`", remedy)
+        from geocontact.study.limits import is_size  # not for help
+
         if self.memory is not None and not is_size(self.memory):
             raise InputError("", "`memory`", f"{self.memory!r} is not a size of memory", "write for example 4GB")
         for name in ("workers", "cores"):

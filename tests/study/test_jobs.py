@@ -21,7 +21,7 @@ from geocontact.study import workers
 from geocontact.study.cluster import SYSTEMS, ClusterSettings, Jobs, job_options, job_size
 from geocontact.study.description import read_study_file
 from geocontact.study.limits import TrialLimits
-from geocontact.study.options import CohortOptions
+from geocontact.study.options import QUEUES, CohortOptions
 from tests.cli.calls import ROOT, call
 from tests.study import slurm_host
 from tests.study.quick import study, tables
@@ -284,3 +284,7 @@ def test_jobs_need_a_description_and_the_programs(tmp_path: Path, monkeypatch: p
     assert refused.code == 2 and "--scheduler: sbatch is not on this machine" in refused.err
     refused = call("cohort", study(tmp_path, {"A": "1"}, *CLUSTER), *given, "--workers", "2")
     assert refused.code == 2 and "--workers: has no effect with --scheduler; write `jobs` into [cluster]" in refused.err
+
+
+def test_options_name_every_queueing_system() -> None:
+    assert set(QUEUES) == set(SYSTEMS)

@@ -15,6 +15,7 @@ SHIPPED = (
     "*.csv",
     "*.mot",
     "*.osim",
+    "knee_pairs.toml",
     "foot_bench/*",
     "whole_body/*",
     "mat_*/*",

@@ -170,9 +170,10 @@ def write_finished(
     record: Record,
     folder: str,
     reservations: Sequence[str],
-    largest: int = LARGEST_FILE,
+    largest: int | None = None,
 ) -> None:
-    """Write the finished page, thinned out until it has at most `largest` bytes, as far as it can be."""
+    """Write the finished page, thinned out until it has `largest` bytes at most, as far as it can be."""
+    largest = LARGEST_FILE if largest is None else largest
     most = page.most if isinstance(page, Thinned) else 0
     while True:
         one = page.of(most) if isinstance(page, Thinned) else page

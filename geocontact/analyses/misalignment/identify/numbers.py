@@ -317,6 +317,7 @@ def _cuts(found: Fitted) -> Iterator[Row]:
         ("bins least", f.LEAST_BINS, "-", "fewer are refused"),
         ("noise least", f.ROUNDING, "-", "of the force's range; less is refused"),
         ("mirrored", f.MIRRORED, "-", "correlation below which a force is refused as mirrored"),
+        ("turned", f.TOGETHER, "-", "correlation above which what mends a trial is named as its cause"),
         ("locked slides", SLID, "m", "a locked joint moves less, a free one more"),
         ("pole", explicit.POLE_SHARE, "-", "of the link: nearer to a pole is beyond the model"),
         ("flat", uncertainty.FLAT, "-", "of the largest singular value: nothing is identified"),

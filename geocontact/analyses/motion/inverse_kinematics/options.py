@@ -39,13 +39,6 @@ class IkOptions(Options):
         given again.
     fill
         Longest gap [s] over which coordinates that no marker determines are filled by a spline; longer ones stay empty.
-    knee
-        Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
-        x forward, y up and z to the right in both. May be given again.
-    joint_angles
-        Write the angles of joints that turn about several axes in this form as well: ISB (ZXY: flexion, adduction,
-        rotation; by its name, of a shoulder YXY), another sequence of the turned axes of the joint's frames such as
-        XYZ, or quaternion.
     events
         Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
         be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.
@@ -60,6 +53,16 @@ class IkOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6.
+
+    Angles of joints
+    ----------------
+    knee
+        Knee whose angles after Grood and Suntay are written: right=femur_r,tibia_r, the bodies as the model calls them,
+        x forward, y up and z to the right in both. May be given again.
+    joint_angles
+        Write the angles of joints that turn about several axes in this form as well: ISB (ZXY: flexion, adduction,
+        rotation; by its name, of a shoulder YXY), another sequence of the turned axes of the joint's frames such as
+        XYZ, or quaternion.
     """
 
     over_time: ClassVar[bool] = True
