@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_600}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_960}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
@@ -83,6 +83,7 @@ LIMITS = {
     "theory/mat_draping.md": 1070,
     "theory/multibody.md": 690,
     "theory/planar_joint.md": 500,
+    "reference/descriptions.md": 3740,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
     "theory/prosthesis_compare.md": 790,
