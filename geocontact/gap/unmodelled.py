@@ -50,8 +50,6 @@ from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
 ZERO, LOST = "wandering_zero", "lost_samples"
-MOST = FEW * int(LONGEST)
-"""Samples that a trial may lose at the most."""
 Columns = Sequence[Float[np.ndarray, " _"]]
 Presence = Sequence[Bool[np.ndarray, " _"]]
 
@@ -251,7 +249,8 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     slips: list[Slip | None] = []
     for _ in range(TURNS):
         moved = [p + j[:, c] @ shift for p, j in zip(predicted, jacobian, strict=True)]
-        slips = [slip_of(y, p, max(min(len(y) // BLOCKS, MOST), 1)) for y, p in zip(measured, moved, strict=True)]
+        most = FEW * int(LONGEST)  # samples, that a trial may lose
+        slips = [slip_of(y, p, max(min(len(y) // BLOCKS, most), 1)) for y, p in zip(measured, moved, strict=True)]
         if not any(slips):
             return None
         rows, columns = [], []

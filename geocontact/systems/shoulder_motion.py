@@ -324,7 +324,7 @@ def swing(
         whole = time[i] - time[i - 1] if i else 0.0
         widest = 1.0 / max(np.ceil(whole / longest - 1e-6), 1.0)
         done = 0.0 if i else 1.0
-        if i:  # the rest of the last interval, however short, is no step to begin with
+        if i > 1:  # the rest of the last interval, however short, is no step to begin with
             share = max(share, SHORTEST / whole)
         while done < 1.0:
             share = min(share, widest, 1.0 - done)
