@@ -201,7 +201,7 @@ class Jobs:
             import dask_jobqueue
         except ImportError as error:
             what = f"needs {error.name}, which is not installed"
-            raise InputError("", "`scheduler`", what, "pip install 'geocontact[cluster]'") from error
+            raise InputError("", "`scheduler`", what, "pip install 'geocontact[cohort]'") from error
         for program in (self._system.submits, self._system.lists[0]):
             if shutil.which(program) is None:
                 what = f"{program} is not on this machine"

@@ -26,8 +26,8 @@ from tests.cli.calls import ROOT, call
 from tests.study import slurm_host
 from tests.study.quick import study, tables
 
-dask = pytest.importorskip("dask", reason="needs the extra `cluster`")
-pytest.importorskip("dask_jobqueue", reason="needs the extra `cluster`")
+dask = pytest.importorskip("dask", reason="needs the extra `cohort`")
+pytest.importorskip("dask_jobqueue", reason="needs the extra `cohort`")
 
 CLUSTER = ("[cluster]", "jobs = 2", 'memory = "1GB"', 'walltime = "00:10:00"')
 GB = 1_000_000_000
