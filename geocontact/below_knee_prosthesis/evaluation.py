@@ -182,8 +182,8 @@ def longest_stance(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"])
 
 
 def at_times(
-    wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t 3"]
-) -> Float[np.ndarray, "s 3"]:
+    wanted: Float[np.ndarray, " s"], time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t k"]
+) -> Float[np.ndarray, "s k"]:
     """Columns at other times [s], linear between samples."""
     return np.column_stack([np.interp(wanted, time, column) for column in values.T])
 

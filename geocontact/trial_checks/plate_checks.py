@@ -188,8 +188,9 @@ def reaction(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(on.source, on.plate.name, what, remedy, refuse=True)
 
 
-COPIED = 10
-"""Samples under load in which two components change and are equal: noise alone keeps them apart."""
+COPIED, ROUNDED = 10, 1e-6
+"""Samples under load in which two components change and are equal: noise alone keeps them apart; N or m, that is
+rounding and no change, as of the centre on a plate without a moment."""
 
 
 def copied_components(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -201,7 +202,9 @@ def copied_components(trial: TrialInputs) -> Iterator[Contradiction]:
             for one, other in combinations(range(3), 2):
                 pair = columns[:, [one, other]]
                 pair = pair[np.isfinite(pair).all(axis=1)]
-                if len(np.unique(pair[:, 0])) >= COPIED and np.allclose(pair[:, 0], pair[:, 1], rtol=1e-9, atol=1e-9):
+                if len(np.unique(pair[:, 0])) < COPIED or np.ptp(pair[:, 0]) < ROUNDED:
+                    continue
+                if np.allclose(pair[:, 0], pair[:, 1], rtol=1e-9, atol=1e-9):
                     line = f"{'xyz'[one]} and {'xyz'[other]} of its {what} are equal in every sample under load"
                     yield Contradiction(on.source, on.plate.name, line, "is a column copied, or named twice?")
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
 
@@ -14,6 +13,7 @@ from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.recorded_balance import strap_by_coordinates, torques_by_ground
 from geocontact.standing_up.strap_sites import STRAP_SITES, StrapSite
+from geocontact.standing_up.trials import StandingTrial
 
 SUBJECT, G = Subject(), 9.81
 POSES = np.array([[0.02, 0.095, 0.0, 0.3, -0.9, 0.8], [0.0, 0.095, 0.05, -0.1, 0.2, -0.4]])
@@ -57,17 +57,6 @@ def test_a_strap_is_pressed_by_its_lever(site: StrapSite) -> None:
     np.testing.assert_allclose(strap_by_coordinates(chain, q, site, values), -2500.0 * lever * np.sin(turn), atol=1e-9)
 
 
-@dataclass
-class Recorded:
-    """What the check looks at of a trial."""
-
-    torque: np.ndarray
-    q: np.ndarray
-    force: np.ndarray
-    centre: np.ndarray
-    chair: None = None
-
-
 @pytest.mark.parametrize(("factor", "words"), [(1e3, "is the unit right?"), (-1.0, "is their sign turned?"), (1.0, "")])
 def test_torques_in_another_unit_are_named_by_it(factor: float, words: str) -> None:
     """Of a slow squat; samples of the knee that nobody measured silence none of its others."""
@@ -77,7 +66,8 @@ def test_torques_in_another_unit_are_named_by_it(factor: float, words: str) -> N
     force = np.array([[0.0, weight] for _, weight, _ in hand])
     torque = factor * np.array([each for each, _, _ in hand])
     torque[:4, 1] = np.nan
-    trial = Recorded(torque, q, force, np.array([centre for _, _, centre in hand]))
+    centre = np.array([each for _, _, each in hand])
+    trial = StandingTrial(np.linspace(0.0, 3.0, 30), q, np.zeros_like(q), force, centre, "T1", torque)
     said: list[str] = []
     with mock.patch.object(recorded_beside, "reserve", said.append):
         recorded_beside.doubt_torques("T1", Path("torques.csv"), leg_chain(SUBJECT), trial)

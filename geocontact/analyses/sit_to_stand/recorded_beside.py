@@ -20,9 +20,9 @@ from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
 HINGES = (*JOINTS, *EXO_JOINTS)
 """Joints, and hinges beside them, in the order of a file of torques."""
 MISSED, MOST = 0.3, 20.0
-"""Of the torque that the ground asks for, and N m, both root mean square: from where the recorded one is another."""
+"""Share of the torque that the ground asks for, and N m, both root mean square: from where the recorded one differs."""
 ONE_LEG = (0.4, 0.6)
-"""Of that torque, which one of two legs makes."""
+"""Share of that torque which one of two legs makes."""
 STRAPPED, SMALLER, LARGER = 5.0, 0.15, 6.0
 """N, by which a strap's force varies, recorded or by coordinates, from which on both are compared, and parts of the one
 that are another unit; errors of angles make it 1.4 times too large by coordinates."""

@@ -370,8 +370,5 @@ def drawn_foot(
 
 def _widest(tasks: list[FootTask]) -> FootTask:
     """Pitches and loads of all draws of a stance as one, so that one table serves them."""
-    time, pitch, thigh, load, forward = (
-        np.concatenate([getattr(each, name) for each in tasks])
-        for name in ("time", "pitch", "thigh", "load", "forward")
-    )
-    return replace(tasks[0], time=time, pitch=pitch, thigh=thigh, load=load, forward=forward)
+    over_time = ("time", "pitch", "thigh", "load", "forward", "pelvis", "needed")
+    return replace(tasks[0], **{name: np.concatenate([getattr(each, name) for each in tasks]) for name in over_time})
