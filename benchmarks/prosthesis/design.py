@@ -22,6 +22,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from benchmarks.machine import write_results
 from geocontact.analyses.frame.workers import each
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, choose
 from geocontact.below_knee_prosthesis.design.drawn import (
     KEEL,
@@ -41,7 +42,7 @@ from geocontact.below_knee_prosthesis.design.foot_map import (
 )
 from geocontact.below_knee_prosthesis.design.foot_task import LOADED, FootTask, needed_of, sagittal_leg
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, outcomes
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import STANDING
 from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers

@@ -13,7 +13,7 @@ from geocontact.study.store import UNREADABLE, Store
 
 ASKED = "asked_for.json"
 """File beside the results: the addresses that each description asked for last, by its path and folder from there."""
-FROM = " --folder "
+FROM = " from "
 """Between the path of a description and the folder that paths in it start from, where that is another one."""
 MB = 1e6
 

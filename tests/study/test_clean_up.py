@@ -60,8 +60,8 @@ def test_a_description_of_two_folders_asks_twice(tmp_path: Path, store: Store) -
         note_asked(store, each, addresses(k))
     assert {*json.loads((store.folder / ASKED).read_text("utf-8"))} == {
         "../../study.toml",
-        "../../study.toml --folder ../../d1",
-        "../../study.toml --folder ../../d2",
+        "../../study.toml from ../../d1",
+        "../../study.toml from ../../d2",
     }
     assert [*not_asked_for(store, second, addresses(1))] == addresses(3)
     plain.path.unlink()

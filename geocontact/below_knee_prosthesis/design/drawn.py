@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -29,10 +30,10 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import body_poses, stance_from_markers
 from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZoneParameters
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.foot_map import FootMap
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask, foot_task
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, Knob
-from geocontact.below_knee_prosthesis.design.outcomes import Aim
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import standing_leg
 from geocontact.below_knee_prosthesis.keel.foam import cut_finer
@@ -371,4 +372,5 @@ def drawn_foot(
 def _widest(tasks: list[FootTask]) -> FootTask:
     """Pitches and loads of all draws of a stance as one, so that one table serves them."""
     over_time = ("time", "pitch", "thigh", "load", "forward", "pelvis", "needed")
-    return replace(tasks[0], **{name: np.concatenate([getattr(each, name) for each in tasks]) for name in over_time})
+    curves: dict[str, Any] = {name: np.concatenate([getattr(each, name) for each in tasks]) for name in over_time}
+    return replace(tasks[0], **curves)

@@ -15,8 +15,9 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_moments
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RATE, body_poses
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.foot_task import EVERY, LOADED
-from geocontact.below_knee_prosthesis.design.outcomes import LANDING, MEASURES, Aim, radius_of_path
+from geocontact.below_knee_prosthesis.design.outcomes import LANDING, MEASURES, radius_of_path
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.plate_checks import lowest_sphere, require_one_clock

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.foot_map import (
     REACH,
     CarriedLoad,
@@ -22,7 +23,7 @@ from geocontact.below_knee_prosthesis.design.foot_map import (
 )
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain
 from geocontact.below_knee_prosthesis.design.joint_torques_kept import OtherFeet, curve, recorded_motion, stacked
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, outcomes
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, outcomes
 from geocontact.below_knee_prosthesis.evaluation import at_times
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel

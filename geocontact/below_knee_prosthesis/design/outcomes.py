@@ -14,6 +14,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.both_sides.joint_work import joint_moments, joint_work, metabolic_proxy
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 
 
@@ -51,20 +52,6 @@ def arc_through(points: Float[np.ndarray, "t 2"]) -> Arc:
 
 
 Sense = Literal["least", "most", "nearest"]
-Aim = Literal[
-    "ankle_moment",
-    "socket_moment",
-    "energy",
-    "radius",
-    "loading_rate",
-    "ankle_mean",
-    "socket_mean",
-    "knee_moment",
-    "knee_mean",
-    "hip_moment",
-    "hip_mean",
-    "metabolic",
-]
 
 
 @dataclass(frozen=True)

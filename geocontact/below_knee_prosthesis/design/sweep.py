@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.choice import FootChoice, PairChoice, choose, choose_pair
 from geocontact.below_knee_prosthesis.design.foot_task import FootTask
 from geocontact.below_knee_prosthesis.design.knob import AIMS, Knob
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING, Aim
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, ROLLING
 
 NO_DIFFERENCE = 1e-3
 """Share of an outcome's size: a smaller difference is none."""

@@ -19,7 +19,7 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
-from geocontact.below_knee_prosthesis.design.outcomes import Aim
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, TILT
 

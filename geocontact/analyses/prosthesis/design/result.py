@@ -44,12 +44,13 @@ from geocontact.analyses.prosthesis.design.sweep import (
 )
 from geocontact.analyses.prosthesis.design.trial import FootAndTrial, read, varied
 from geocontact.analyses.prosthesis.stance_files import numbers_table, offset_words
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.choice import FootChoice
 from geocontact.below_knee_prosthesis.design.drawn import without_map_error
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad
 from geocontact.below_knee_prosthesis.design.foot_task import LEVEL, FootTask, Terrain, words
 from geocontact.below_knee_prosthesis.design.knob import RESPONSES, Knob, Response
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim, shank_path
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, shank_path
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
 from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, values_of

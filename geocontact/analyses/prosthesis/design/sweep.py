@@ -8,10 +8,11 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.below_knee_prosthesis.design.drawn import OF_MAP
 from geocontact.below_knee_prosthesis.design.intact_step import NOT_INTACT
 from geocontact.below_knee_prosthesis.design.knob import AIMS, JUDGED, RESPONSES, Vary
-from geocontact.below_knee_prosthesis.design.outcomes import MEASURES, Aim
+from geocontact.below_knee_prosthesis.design.outcomes import MEASURES
 from geocontact.below_knee_prosthesis.design.sensitivities import FootSensitivity, Unit
 from geocontact.below_knee_prosthesis.design.sweep import AimAnswer, Sweep, Together
 
