@@ -339,7 +339,9 @@ def swing(
             smooth = search[SLOPE] < STIFF
             off, solved = step(h, w, n, table, law, old, new, before, after, search, inner)
             rough = off * h / JUMP
-            if rough > 1.0 and h > SHORTEST:
+            if not solved:  # a force that jumps: the slope over the jump is none to go on with
+                search[SLOPE] = 1.0
+            if h > SHORTEST and (rough > 1.0 or not solved):
                 share *= 0.5
                 continue
             unsolved += not solved
