@@ -269,6 +269,7 @@ bending = { value = 28, unit = "N m^2" }
 modulus = { value = 20, unit = "GPa" }
 shear_modulus = { value = 7, unit = "GPa" }
 torsional = { value = 30, unit = "N m^2" }
+twists = true
 retardation = { value = 0.002, unit = "s" }
 support = "pinned"
 [[keel.sections]]

@@ -154,6 +154,7 @@ def _keel(file: Path, d: KeelDescription) -> tuple[Keel, bool]:
             support=d.support,
             range=(d.lowest.value, d.highest.value),
             sections=sections,
+            twists=d.twists,
         )
     except ValueError as error:
         raise InputError(file, "[keel]", str(error), "check lengths and the range of the fulcrum") from error
@@ -242,6 +243,9 @@ def _origin(d: KeelDescription, keel: Keel) -> dict[str, Number]:
     found = {f"keel {name}": number_of(getattr(d, name)) for name in NAMED}
     found["keel retardation"] = RETARDATION if d.retardation is None else number_of(d.retardation)
     derived = Number(keel.bending, "derived", "EI, from modulus and section")
+    if d.twists:
+        flat = Number(keel.torsional, "derived", "GJ, of a flat section")
+        found["keel torsional"] = flat if d.torsional is None else number_of(d.torsional)
     found["keel bending"] = derived if d.bending is None else number_of(d.bending)
     usual = Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
     found["keel thickness"] = usual if d.thickness is None else number_of(d.thickness)

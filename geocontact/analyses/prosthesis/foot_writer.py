@@ -71,11 +71,14 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
     for name, unit in KEEL.items():
         if name != "bending" or sections.uniform:
             yield f"{name} = {quantity(numbers[f'keel {name}'], unit)}"
-    yield f"torsional = {quantity(Number(keel.torsional, 'derived', 'GJ, of a flat section'), 'N m^2')}"
+    gj = foot.record.origin.get("keel torsional", Number(0.0, "derived", "GJ, of a flat section"))
+    yield f"torsional = {quantity(replace(gj, value=keel.torsional), 'N m^2')}"
     for name, end in zip(("lowest", "highest"), keel.range, strict=True):
         known = foot.record.origin.get(f"keel {name}", Number(end, "option"))
         yield f"{name} = {quantity(replace(known, value=end), 'm')}"
     yield f'support = "{keel.support}"'
+    if keel.twists:
+        yield "twists = true"
     for end, factor in zip((*sections.edges, keel.length), sections.factors, strict=True):
         if not sections.uniform:
             bending = Number(factor * keel.bending, "derived", numbers["keel bending"].note)

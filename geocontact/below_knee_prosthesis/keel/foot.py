@@ -43,6 +43,6 @@ class VariableStiffnessFoot:
     law: SoleLaw
     record: FootRecord
 
-    def at(self, fulcrum: float, *, torsion: bool = False) -> QuasiStaticKeel:
+    def at(self, fulcrum: float) -> QuasiStaticKeel:
         """At a fulcrum [m], without inertia."""
-        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law, torsion)
+        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law)

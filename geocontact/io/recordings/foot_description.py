@@ -156,6 +156,8 @@ class KeelDescription(Document):
         Of the material.
     torsional
         GJ; by default from EI as of a flat section.
+    twists
+        Whether the keel turns about its long axis as well, by GJ; false by default.
     retardation
         Damping over stiffness; 2 ms by default, which is invented.
     support
@@ -176,6 +178,7 @@ class KeelDescription(Document):
     modulus: Modulus | None = None
     shear_modulus: Modulus | None = None
     torsional: Bending | None = None
+    twists: bool = False
     retardation: Retardation | None = None
     support: Literal["pinned", "clamped"] = "pinned"
     sections: Annotated[tuple[KeelSection, ...], Rows] = ()

@@ -88,6 +88,7 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
             "ankle moment [N m]": s.ankle_moment,
             "stored [J]": s.stored,
             "lost [J]": s.lost,
+            **({} if s.twist is None else {"keel twist [deg]": np.degrees(s.twist)}),
             **{
                 f"{name} [deg]": np.degrees(column)
                 for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)

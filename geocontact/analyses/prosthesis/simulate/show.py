@@ -175,7 +175,9 @@ def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:
     """The keel's end, joints and tip in the laboratory [m]."""
     keel = s.foot.keel
     angle = np.cumsum(s.keel_angles, axis=1)
-    steps = keel.pitch * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=2)
+    twist = np.zeros((len(s.time), 1)) if s.twist is None else s.twist[:, None]
+    up, across = np.cos(twist), np.sin(twist)
+    steps = keel.pitch * np.stack([np.cos(angle), up * np.sin(angle), across * np.sin(angle)], axis=2)
     first = np.broadcast_to([keel.posterior, 0.0, 0.0], (len(s.time), 1, 3))
     points = np.concatenate([np.zeros_like(first), first, first + np.cumsum(steps, axis=1)], axis=1)
     turned = np.einsum("tij,tnj->tni", s.poses.rotation.as_matrix(), points)
