@@ -109,7 +109,7 @@ class Stance:
 
     @property
     def twist(self) -> Float[np.ndarray, " t"] | None:
-        """Turn of the keel about its long axis [rad], positive where its lateral side goes down; None without torsion."""
+        """Turn of the keel about its long axis [rad], lateral side down positive; None without torsion."""
         return self.found.q[:, 8] if self.foot.keel.twists else None
 
     @property

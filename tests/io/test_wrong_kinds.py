@@ -293,6 +293,8 @@ stiffness = { value = 22, unit = "N/mm" }
 damping = { value = 300, unit = "N s/m" }
 static = { value = 0.8, unit = "-" }
 kinetic = { value = 0.7, unit = "-" }
+[actuator]
+speed = { value = 200, unit = "mm/s" }
 [bench]
 at = { value = 235, unit = "mm" }
 noise = { value = 0.03, unit = "mm" }

@@ -92,8 +92,8 @@ def keel_bodies(
 ) -> tuple[tuple[Body, ...], tuple[JointModel, ...]]:
     """Segments in front of the first joint, and their joints, to follow the parent's in a `Multibody`.
 
-    Bodies, joints and coordinates are `name`_1 to `name`_n, behind `name`_torsion of a keel that twists. What lies behind the first joint is rigid: it is part of
-    the parent, whose mass has to hold it (`posterior_part`).
+    Bodies, joints and coordinates are `name`_1 to `name`_n, behind `name`_torsion of a keel that twists. What lies
+    behind the first joint is rigid: it is part of the parent, whose mass has to hold it (`posterior_part`).
 
     Parameters
     ----------

@@ -57,6 +57,11 @@ OWN_CALIBRATED = (
     "The foot is a keel on hinges on {kinds}, as its file describes it; their forces, and the offset of the foot from "
     "its standing trial, are from the law's file."
 )
+SCHEDULED = (
+    "The fulcrum moves in the swing before a stance and stays through it. Each stance is simulated from its recorded "
+    "start at its own fulcrum, along the person's motion as it was recorded: how the person would answer another "
+    "setting is not in it. Curves and the moving foot are those of the longest stance."
+)
 TWICE = (
     "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
     "well as in the bushing."
@@ -85,6 +90,11 @@ def stance_page(
             else []
         ),
         *small_forces(tables.get("errors")),
+        *(
+            [frame_table("Strides", tables["strides"]), Words("The schedule", [SCHEDULED])]
+            if "strides" in tables
+            else []
+        ),
         frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
