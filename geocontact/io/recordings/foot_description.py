@@ -70,7 +70,7 @@ def _quantity(known: str | Plausible) -> FootQuantity:
     return FootQuantity(known, sources=SOURCES)
 
 
-MM_PER_S = Unit("mm/s", "mm/s", 1e-3)
+MM_PER_S = Unit("mm/s", "m/s", 1e-3)
 N_M2, KG_PER_M3 = Unit("N m^2", "N m^2", 1.0), Unit("kg/m^3", "kg/m^3", 1.0)
 PLACE = Plausible("a place along a keel", mm, (0.0, 500.0))
 THICKNESS = Plausible("the thickness of a keel", mm, (0.3, 40.0), (2.0, 15.0), why="leaves of carbon and glass fibre")
