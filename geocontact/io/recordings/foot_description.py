@@ -145,7 +145,7 @@ class KeelDescription(Document):
     posterior
         From its posterior end to the first joint.
     joints
-        How many joints stand for the beam, evenly from the first one to the tip; 8 by default.
+        How many, evenly from the first to the tip; 8 by default.
     lowest, highest
         Range of the fulcrum.
     width, density
@@ -153,15 +153,15 @@ class KeelDescription(Document):
     thickness
         By default from EI, `modulus` and `width`.
     bending
-        EI; by default from `modulus`, `width` and `thickness`. Without these it has to be identified.
+        EI; by default from `modulus`, `width` and `thickness`, else identified.
     modulus, shear_modulus
         Of the material.
     torsional
         GJ; by default from EI as of a flat section.
     twists
-        Whether the keel turns about its long axis as well, by GJ; false by default.
+        Whether it turns about its long axis, by GJ.
     retardation
-        Damping over stiffness; 2 ms by default, which is invented.
+        Damping over stiffness; 2 ms by default, invented.
     support
         How the posterior end is held.
     sections
@@ -300,7 +300,7 @@ class Compression(Document):
     setting, fulcrum
         Setting of the foot, or place of its fulcrum; one of both.
     sought
-        Whether the place of the fulcrum is not known and is identified with the keel.
+        Whether the fulcrum's place is identified with the keel.
     curve
         Table with `force [N]` and `deflection [mm]`.
     stiffness, sd
@@ -332,7 +332,7 @@ class Actuator(Document):
     Parameters
     ----------
     speed
-        At which it can move the fulcrum while the foot is not loaded.
+        Without load.
     """
 
     speed: Annotated[StatedNumber, _quantity(ACTUATOR)]
@@ -352,7 +352,7 @@ class Bench(Document):
     tilt
         Of the plate against the sole, toes first; 20 degrees by default.
     travel
-        Over which the sole is compressed when its numbers are fitted; 5 mm by default.
+        Of the sole when its numbers are fitted; 5 mm by default.
     """
 
     at: Length | None = None
