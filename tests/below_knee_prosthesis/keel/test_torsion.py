@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.below_knee_prosthesis.both_sides.walk import coordinate_names, passive
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import QuasiStaticKeel, loads_at
@@ -18,6 +19,7 @@ from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.centre_of_pressure import centre_of_pressure
 from geocontact.loads.ground import Stairs
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
+from meshes.amputee import true_amputee
 from meshes.gait_course import course
 from meshes.gait_persons import PARTICIPANTS, true_leg
 
@@ -108,3 +110,12 @@ def test_numbers_of_a_keel_that_twists_are_stated() -> None:
     assert set(found) - set(plain) == {"keel torsional", "keel torsion"}
     bar = found["keel torsional"].value / (LENGTH - FULCRUM)
     assert found["keel torsion"].value == pytest.approx(bar, rel=1e-12)
+
+
+def test_torsion_of_both_legs_has_its_spring() -> None:
+    """Every coordinate of socket and keel in the model of `prosthesis walk`."""
+    person = true_amputee(PARTICIPANTS[0], twisting(), FULCRUM)
+    names = passive(coordinate_names(person))
+    assert "keel_torsion_r" in names
+    assert set(names) == {f"{name}_r" for name in person.springs()}
+    assert person.springs()["keel_torsion"][0] == pytest.approx(person.foot.keel.torsional / (LENGTH - FULCRUM))
