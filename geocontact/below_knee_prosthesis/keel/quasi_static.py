@@ -63,8 +63,8 @@ def loads_at(
             step, slope = _hinge("x", angles[:, 0], speeds[:, 0], 0.0)
             matrix, moving = matrix @ step, moving @ step + matrix @ slope
         if segment:
-            at, own = keel.keel.places[0] if segment == 1 else keel.keel.pitch, segment - 1 + more
-            step, slope = _hinge("z", angles[:, own], speeds[:, own], at)
+            at, k = keel.keel.places[0] if segment == 1 else keel.keel.pitch, segment - 1 + more
+            step, slope = _hinge("z", angles[:, k], speeds[:, k], at)
             matrix, moving = matrix @ step, moving @ step + matrix @ slope
         spheres, chosen = keel.sole.on(segment, keel.keel), segments == segment
         if spheres is None:

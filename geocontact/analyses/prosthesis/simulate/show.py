@@ -90,11 +90,7 @@ def stance_page(
             else []
         ),
         *small_forces(tables.get("errors")),
-        *(
-            [frame_table("Strides", tables["strides"]), Words("The schedule", [SCHEDULED])]
-            if "strides" in tables
-            else []
-        ),
+        *strides_sections(tables),
         frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
@@ -116,6 +112,13 @@ def stance_page(
         numbers=shown + 1,
         total=len(s.time),
     )
+
+
+def strides_sections(tables: Mapping[str, pd.DataFrame]) -> list[Section]:
+    """Every stride of a schedule, and what it means; nothing without one."""
+    if "strides" not in tables:
+        return []
+    return [frame_table("Strides", tables["strides"]), Words("The schedule", [SCHEDULED])]
 
 
 def small_forces(errors: pd.DataFrame | None) -> list[Words]:
