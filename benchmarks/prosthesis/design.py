@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from benchmarks.machine import write_results
@@ -126,6 +127,7 @@ def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask,
     place, axis = leg.turn.inv(), poses.rotation.apply([1.0, 0.0, 0.0])
     pitch, thigh, bars = np.arcsin(axis[:, 1]), np.arctan2(-up[:, 0], up[:, 1]), sagittal_leg(leg, vsf_foot().keel)
     hip, back = bodies["pelvis"].apply(leg.hip), bodies["pelvis"].rotation.apply([0.0, 1.0, 0.0])
+    course_of = np.column_stack([hip[:, :2], thigh, pitch])
     exact = FootTask(
         time=motion.time[kept],
         pitch=pitch[kept],
@@ -140,7 +142,8 @@ def _walk(leg: Leg, fulcrum: float, rng: np.random.Generator) -> tuple[FootTask,
         leg_length=leg.thigh + leg.shank,
         weight=weight,
         pelvis=np.arctan2(-back[kept, 0], back[kept, 1]),
-        needed=needed_of(bars, motion.time, np.column_stack([hip[:, :2], thigh, pitch]))[kept],
+        needed=needed_of(bars, motion.time, course_of)[kept],
+        acceleration=make_interp_spline(motion.time, course_of, k=5)(motion.time, 2)[kept],
     )
     return exact, {"pelvis": bodies["pelvis"], "thigh": bodies["thigh"], "shank": poses}, motion.time
 

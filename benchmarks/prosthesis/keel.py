@@ -233,6 +233,8 @@ def soles(rounds: int) -> dict[str, Any]:
 
 def torsion() -> dict[str, Any]:
     """A forefoot rolled by 3 degrees under 800 N, without and with torsion: its centre across, twist and height."""
+    from dataclasses import replace
+
     import numpy as np
     from scipy.spatial.transform import RigidTransform, Rotation
 
@@ -243,7 +245,8 @@ def torsion() -> dict[str, Any]:
     turn, found = Rotation.from_euler("zx", np.radians([[-20.0, 3.0]])), {}
     for setting in ("low", "medium", "high"):
         for twisting in (False, True):
-            one = vsf_foot().at(fulcrum_of(setting), torsion=twisting)
+            foot = vsf_foot()
+            one = replace(foot, keel=replace(foot.keel, twists=twisting)).at(fulcrum_of(setting))
             height = heights(one, turn, np.array([800.0]))
             moved = one.solve(RigidTransform.from_components(height[:, None] * [0.0, 1.0, 0.0], turn), LEVEL)
             found[f"{setting}, {'with' if twisting else 'without'}"] = {

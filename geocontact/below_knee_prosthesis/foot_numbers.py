@@ -81,6 +81,9 @@ def _keel(foot: VariableStiffnessFoot, fulcrum: float) -> Iterator[tuple[str, Nu
         yield f"section_{k}_factor", replace(origin.get("keel sections", STATED), value=factor)
     for k, value in enumerate(keel.stiffness(fulcrum), start=1):
         yield f"stiffness_{k}", Number(float(value), "derived", f"of hinge {k}, from EI and fulcrum")
+    if keel.twists:
+        yield "torsional", replace(origin.get("keel torsional", STATED), value=keel.torsional)
+        yield "torsion", Number(keel.torsion(fulcrum)[0], "derived", "of the hinge along the keel, from GJ and fulcrum")
     if keel.rubs:
         for name in ("hysteresis", "friction", "presliding"):
             yield name, Number(float(getattr(keel, name)), "invented", "of the keel's friction")

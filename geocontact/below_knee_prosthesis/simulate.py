@@ -10,7 +10,7 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.keel.on_tree import rubbing_numbers
+from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers, rubbing_numbers
 from geocontact.below_knee_prosthesis.keel.quasi_static import loads_at
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion, driving_inputs
 from geocontact.below_knee_prosthesis.stance_model import (
@@ -105,20 +105,25 @@ class Stance:
     @property
     def keel_angles(self) -> Float[np.ndarray, "t n"]:
         """Angles of the keel's joints [rad]."""
-        return self.found.q[:, 8:]
+        return self.found.q[:, 8 + int(self.foot.keel.twists) :]
+
+    @property
+    def twist(self) -> Float[np.ndarray, " t"] | None:
+        """Turn of the keel about its long axis [rad], lateral side down positive; None without torsion."""
+        return self.found.q[:, 8] if self.foot.keel.twists else None
 
     @property
     def stored(self) -> Float[np.ndarray, " t"]:
         """Energy of the keel's springs [J]."""
-        return np.asarray(0.5 * self.keel_angles**2 @ self.foot.keel.stiffness(self.fulcrum))
+        return np.asarray(0.5 * self.found.q[:, 8:] ** 2 @ joint_numbers(self.foot.keel, self.fulcrum)[0])
 
     @property
     def lost(self) -> Float[np.ndarray, " t"]:
         """Energy that the keel's dampers and friction have taken since the start [J]."""
-        power = self.found.u[:, 8:] ** 2 @ self.foot.keel.damping(self.fulcrum)
+        power = self.found.u[:, 8:] ** 2 @ joint_numbers(self.foot.keel, self.fulcrum)[1]
         if self.found.z.shape[1]:
             size, held, _ = rubbing_numbers(self.foot.keel, self.fulcrum)
-            limit = np.abs(self.keel_angles) * size + held
+            limit = np.abs(self.found.q[:, 8:]) * size + held
             power = power + (limit * self.found.z * self.found.u[:, 8:]).sum(axis=1)
         return np.concatenate([[0.0], np.cumsum(0.5 * (power[1:] + power[:-1]) * np.diff(self.time))])
 

@@ -154,8 +154,8 @@ def _sizes(keel: Keel, zones: int, ground: int) -> dict[str, int]:
         "centre": 3,
         "inertia": 6,
         "keel_place": 3,
-        "joints": 2 * keel.joints,
-        "rubbing": 3 * keel.joints if keel.rubs else 0,
+        "joints": 2 * keel.hinges,
+        "rubbing": 3 * keel.hinges if keel.rubs else 0,
         "bushing": 12,
         "sole": 4 * zones,
         "ground": ground,
@@ -179,7 +179,7 @@ def _made(
     of = {name: p[int(ends[k]) : int(ends[k + 1]), :] for k, name in enumerate(sizes)}
     tree = _tree(keel, of)
     under = FLOOR if not ground else SymbolicPlane(of["ground"]) if edges is None else SymbolicStairs(of["ground"])
-    names, n = coordinates(keel), keel.joints
+    names, n = coordinates(keel), keel.hinges
     rubbing, memory = keel_friction(tree, names, of["rubbing"]) if keel.rubs else ([], [])
     along = along_keel(tree, names, of["joints"][:n, :], of["joints"][n:, :], rubbing)
     along |= dict(zip(PLACE, (pushing[0], pushing[1]), strict=True))

@@ -31,6 +31,23 @@ def summary(found: Stance) -> dict[str, float]:
     }
 
 
+def in_numbers(found: Stance) -> dict[str, float]:
+    """What strides are compared by: peak vertical force and ankle moment, way of the centre of pressure along the foot
+    from its hindmost to its foremost place, energy that the keel stores at most, and what it returns of that.
+
+    Returned is what was stored at most less what is left at the end and what damping and friction take on the way.
+    """
+    along, stored = found.along_foot("ground"), found.stored
+    at = int(np.argmax(stored))
+    return {
+        "vertical_N": float(found.force[:, 1].max()),
+        "ankle_moment_N_m": float(found.ankle_moment.max()),
+        "cop_travel_mm": float(1e3 * found.foot.keel.length * (np.nanmax(along) - np.nanmin(along))),
+        "stored_J": float(stored[at]),
+        "returned_J": float(stored[at] - stored[-1] - (found.lost[-1] - found.lost[at])),
+    }
+
+
 def doubts(found: Stance) -> list[str]:
     """Reasons not to trust a simulated stance, each in a sentence; empty where there is none.
 

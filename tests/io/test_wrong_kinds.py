@@ -269,6 +269,7 @@ bending = { value = 28, unit = "N m^2" }
 modulus = { value = 20, unit = "GPa" }
 shear_modulus = { value = 7, unit = "GPa" }
 torsional = { value = 30, unit = "N m^2" }
+twists = true
 retardation = { value = 0.002, unit = "s" }
 support = "pinned"
 [[keel.sections]]
@@ -292,6 +293,8 @@ stiffness = { value = 22, unit = "N/mm" }
 damping = { value = 300, unit = "N s/m" }
 static = { value = 0.8, unit = "-" }
 kinetic = { value = 0.7, unit = "-" }
+[actuator]
+speed = { value = 200, unit = "mm/s" }
 [bench]
 at = { value = 235, unit = "mm" }
 noise = { value = 0.03, unit = "mm" }

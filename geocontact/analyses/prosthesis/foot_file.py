@@ -5,7 +5,7 @@ The shipped foot is such a file too, `shipped_foot/foot.toml`, written by `pytho
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from geocontact.below_knee_prosthesis.keel.sections import ONE, Sections
 from geocontact.below_knee_prosthesis.keel.sole import law_of, sole_of, sole_origin
 from geocontact.below_knee_prosthesis.keel.sole import numbers as usual_sole
 from geocontact.below_knee_prosthesis.keel.vsf import NAME
+from geocontact.below_knee_prosthesis.schedule import FulcrumSchedule, ScheduledPlace
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
 from geocontact.data.plausible import Plausible
@@ -29,6 +30,7 @@ from geocontact.io.recordings.foot_description import (
     KeelSection,
     read_foot_description,
 )
+from geocontact.io.recordings.fulcrum_schedule import read_fulcrum_schedule
 
 SHIPPED = Path(__file__).parent / "shipped_foot" / "foot.toml"
 RETARDATION = Number(2e-3, "invented", "a loss factor of 0.013 at 1 Hz")
@@ -101,6 +103,19 @@ def fulcrum_at(foot: VariableStiffnessFoot, setting: str, fulcrum: float | None)
     return settings[setting]
 
 
+def read_schedule(file: Path, foot: VariableStiffnessFoot) -> FulcrumSchedule:
+    """A schedule with the places of this foot's fulcrum; InputError for one that it has not."""
+    table, places = read_fulcrum_schedule(file), []
+    add_input("`schedule`", file, rows=len(table.rows))
+    for number, row in enumerate(table.rows, start=1):
+        try:
+            fulcrum = fulcrum_at(foot, row.setting or "", row.fulcrum)
+        except InputError as error:
+            raise replace(error, file=file, place=f"row {number}") from error
+        places.append(ScheduledPlace(row.start, row.setting or f"{1e3 * fulcrum:g} mm", fulcrum))
+    return FulcrumSchedule(table.by, tuple(places))
+
+
 def read_foot(file: Path) -> FootFile:
     """Keel, sole and law of a description; InputError for what cannot be."""
     described = read_foot_description(file)
@@ -115,7 +130,8 @@ def read_foot(file: Path) -> FootFile:
     under = _under(file, described, keel)
     places = {f"setting {setting}": number_of(place) for setting, place in described.settings.items()}
     origin = _origin(described.keel, keel) | places | under.origin
-    record = FootRecord(str(name), under.below, settings, origin)
+    moved = described.actuator
+    record = FootRecord(str(name), under.below, settings, origin, None if moved is None else moved.speed.value)
     return FootFile(VariableStiffnessFoot(keel, under.sole, under.law, record), described, known)
 
 
@@ -154,6 +170,7 @@ def _keel(file: Path, d: KeelDescription) -> tuple[Keel, bool]:
             support=d.support,
             range=(d.lowest.value, d.highest.value),
             sections=sections,
+            twists=d.twists,
         )
     except ValueError as error:
         raise InputError(file, "[keel]", str(error), "check lengths and the range of the fulcrum") from error
@@ -242,6 +259,9 @@ def _origin(d: KeelDescription, keel: Keel) -> dict[str, Number]:
     found = {f"keel {name}": number_of(getattr(d, name)) for name in NAMED}
     found["keel retardation"] = RETARDATION if d.retardation is None else number_of(d.retardation)
     derived = Number(keel.bending, "derived", "EI, from modulus and section")
+    if d.twists:
+        flat = Number(keel.torsional, "derived", "GJ, of a flat section")
+        found["keel torsional"] = flat if d.torsional is None else number_of(d.torsional)
     found["keel bending"] = derived if d.bending is None else number_of(d.bending)
     usual = Number(keel.thickness, "derived", "from width, modulus and EI as of beam theory")
     found["keel thickness"] = usual if d.thickness is None else number_of(d.thickness)

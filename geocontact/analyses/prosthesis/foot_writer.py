@@ -71,11 +71,14 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
     for name, unit in KEEL.items():
         if name != "bending" or sections.uniform:
             yield f"{name} = {quantity(numbers[f'keel {name}'], unit)}"
-    yield f"torsional = {quantity(Number(keel.torsional, 'derived', 'GJ, of a flat section'), 'N m^2')}"
+    gj = foot.record.origin.get("keel torsional", Number(0.0, "derived", "GJ, of a flat section"))
+    yield f"torsional = {quantity(replace(gj, value=keel.torsional), 'N m^2')}"
     for name, end in zip(("lowest", "highest"), keel.range, strict=True):
         known = foot.record.origin.get(f"keel {name}", Number(end, "option"))
         yield f"{name} = {quantity(replace(known, value=end), 'm')}"
     yield f'support = "{keel.support}"'
+    if keel.twists:
+        yield "twists = true"
     for end, factor in zip((*sections.edges, keel.length), sections.factors, strict=True):
         if not sections.uniform:
             bending = Number(factor * keel.bending, "derived", numbers["keel bending"].note)
@@ -85,6 +88,8 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
     for name, place in foot.record.settings.items():
         known = foot.record.origin.get(f"setting {name}", Number(place, "option"))
         yield f"{key(name)} = {quantity(replace(known, value=place), 'm')}"
+    if foot.record.actuator is not None:
+        yield f"\n[actuator]\nspeed = {quantity(Number(foot.record.actuator, 'option'), 'm/s')}"
     yield from _spheres(foot, numbers) if foot.sole.foam is None else _foam(foot.sole.foam, numbers)
 
 

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.below_knee_prosthesis.both_sides.intact_leg import IntactLeg
 from geocontact.below_knee_prosthesis.foot_numbers import foot_numbers, socket_numbers
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
-from geocontact.below_knee_prosthesis.keel.on_tree import joint_numbers
+from geocontact.below_knee_prosthesis.keel.on_tree import coordinates, joint_numbers
 from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Vector, combined
 from geocontact.contact.bushing import SOCKET, Bushing
 from geocontact.data.body_segments import SEGMENTS, STATURE, Sex
@@ -135,8 +135,8 @@ class Amputee:
         names = [f"socket_{kind}{axis}" for kind in "rt" for axis in "xyz"]
         found = dict(zip(names, zip(self.bushing.stiffness, self.bushing.damping, strict=True), strict=True))
         stiffness, damping = joint_numbers(self.foot.keel, self.fulcrum)
-        for k, pair in enumerate(zip(stiffness, damping, strict=True)):
-            found[f"keel_{k + 1}"] = (float(pair[0]), float(pair[1]))
+        for name, k, b in zip(coordinates(self.foot.keel), stiffness, damping, strict=True):
+            found[name] = (float(k), float(b))
         return found
 
     def numbers(self) -> Mapping[str, Number]:

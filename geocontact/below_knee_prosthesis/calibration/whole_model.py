@@ -151,7 +151,7 @@ class WholeStance:
         """What each sphere does."""
         told = told_at(self.model, *self._arguments(shown.x, shown.p))
         n = len(self.model.equations.names)
-        angles, speeds = shown.x[:, n - foot.keel.joints : n], shown.x[:, 2 * n - foot.keel.joints : 2 * n]
+        angles, speeds = shown.x[:, n - foot.keel.hinges : n], shown.x[:, 2 * n - foot.keel.hinges : 2 * n]
         return foot.at(self.stance.recorded.fulcrum).at(angles, speeds, told.poses, FLOOR, told.rate)
 
     def _along(self) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, " t"]]:

@@ -206,6 +206,8 @@ class FootTask:
         Turn of the pelvis in the same plane [rad].
     needed
         Moments about hip and knee that weight and inertia of thigh and shank need, to the left [N m].
+    acceleration
+        Second derivatives of `COORDINATES` [m/s², rad/s²], of a spline that goes on into the swing on both sides.
     """
 
     time: Float[np.ndarray, " t"]
@@ -222,6 +224,7 @@ class FootTask:
     weight: float
     pelvis: Float[np.ndarray, " t"]
     needed: Float[np.ndarray, "t 2"]
+    acceleration: Float[np.ndarray, "t 4"]
 
     def aligned(self, angle: float) -> FootTask:
         """With the foot turned toes up against the socket by an angle [rad], about the ankle.
@@ -280,6 +283,7 @@ def foot_task(stance: RecordedStance, pelvis: RigidTransform, leg: Leg, keel: Ke
         weight=stance.weight,
         pelvis=turn(pelvis.rotation.apply([0.0, 1.0, 0.0]))[kept],
         needed=needed_of(bars, stance.time, q)[kept],
+        acceleration=make_interp_spline(stance.time, q, k=5)(stance.time, 2)[kept],
     )
 
 

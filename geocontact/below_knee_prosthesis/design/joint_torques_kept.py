@@ -53,10 +53,10 @@ class RecordedLeg:
     Parameters
     ----------
     q, u, a
-        Of the leg's coordinates [m, rad], and their derivatives.
+        Of the leg's coordinates [m, rad], and their derivatives; accelerations are those of `FootTask`, for those of
+        a spline over the loaded stance alone are wild at its ends.
     driven
-        What drives the coordinates besides weight and the ground: all that acts on the body, torques [N, N m]; in the
-        first 0.1 s with the second derivatives of a spline's end.
+        What drives the coordinates besides weight and the ground: all that acts on the body, torques [N, N m].
     speed
         Of the place on the foot where the centre of pressure is, forward and upwards [m/s].
     raised
@@ -119,7 +119,8 @@ def recorded_motion(foot: FootMap, task: FootTask) -> RecordedLeg:
     keel = np.column_stack([along, channels[:, 0]])
     hip = keel + turned(pitch, np.broadcast_to(leg.knee, keel.shape)) + leg.length * thigh_direction(thigh)
     course = make_interp_spline(task.time, _at(task.time, time, hip), k=5)
-    q, u, a = (np.hstack([course(time, k), turns(time, k)]) for k in range(3))
+    q, u = (np.hstack([course(time, k), turns(time, k)]) for k in range(2))
+    a = np.asarray(make_interp_spline(task.time, task.acceleration, k=3)(time))
     _, speed = point_of_shank(leg, q, u, channels[:, 1:PLACES])
     origin, _ = point_of_shank(leg, q, u, np.zeros(2))
     force = force_along(leg, q, channels[:, 1:PLACES], np.column_stack([forward, load]))

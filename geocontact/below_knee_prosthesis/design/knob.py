@@ -123,8 +123,8 @@ class Knob:
     def _moved(self, maps: Sequence[FootMap], task: FootTask, tasks: Sequence[FootTask]) -> tuple[CarriedLoad, ...]:
         """Hip and knee torques are those of the present foot with angles kept, and of the tracking.
 
-        What drives the motion, `RecordedLeg.driven`, differs from the first by its spline's ends: at the hip of the
-        shipped stance by 460 N m at its start, by 5 N m root mean square after 0.1 s.
+        What drives the motion, `RecordedLeg.driven`, are the first: at the hip of the shipped stance within 5 N m root
+        mean square over its first 0.1 s, and 2 N m after.
         """
         moved, kept = self.other_feet(maps, task).moved(), with_angles_kept(maps[-1], task).leg_torques
         found = []

@@ -50,7 +50,6 @@ class DynamicKeel:
     """
 
     keel: Keel
-    torsion: bool
     equations: Equations
     stepper: Stepper
 
@@ -66,9 +65,9 @@ class DynamicKeel:
         """Along poses `X_GK` at some times [s], by splines of degree 5, from angles at rest."""
         turns = np.unwrap(poses.rotation.as_euler("XYZ"), axis=0)
         inputs = recorded_inputs(time, np.hstack([turns, poses.translation]), derivatives=2)
-        numbers = [*joint_numbers(self.keel, fulcrum, torsion=self.torsion)]
+        numbers = [*joint_numbers(self.keel, fulcrum)]
         if self.keel.rubs:
-            numbers += rubbing_numbers(self.keel, fulcrum, torsion=self.torsion)
+            numbers += rubbing_numbers(self.keel, fulcrum)
         memory = np.zeros(self.equations.z.shape[0])
         at_rest = (np.asarray(start, float), np.zeros(len(start)), memory)
         return self.stepper.simulate(
@@ -82,7 +81,6 @@ def dynamic_keel(
     law: SoleLaw,
     ground: HalfSpace,
     *,
-    torsion: bool = False,
     gravity: tuple[float, float, float] = DOWNWARDS,
     machine_code: bool = True,
 ) -> DynamicKeel:
@@ -90,11 +88,11 @@ def dynamic_keel(
     from casadi import SX
 
     still = RigidTransform.identity()
-    bodies, joints = keel_bodies(keel, FOOT, still, torsion=torsion)
+    bodies, joints = keel_bodies(keel, FOOT, still)
     foot = Body(FOOT, 1.0, np.zeros(3), np.eye(3))  # its motion is given, so its mass does not matter
     model = Multibody("keel", (foot, *bodies), (free("root", GROUND, FOOT), *joints), (), np.asarray(gravity, float))
     tree = tree_of(model)
-    names = coordinates(keel, torsion=torsion)
+    names = coordinates(keel)
     stiffness, damping = SX.sym("stiffness", len(names)), SX.sym("damping", len(names))
     more = SX.sym("rubbing", 3 * len(names) if keel.rubs else 0)
     rubbing, memory = keel_friction(tree, names, more) if keel.rubs else ([], [])
@@ -106,4 +104,4 @@ def dynamic_keel(
         prescribed=[name for name in tree.names if name not in names],
         parameters=[stiffness, damping, more],
     )
-    return DynamicKeel(keel, torsion, equations, Stepper(equations, machine_code=machine_code))
+    return DynamicKeel(keel, equations, Stepper(equations, machine_code=machine_code))

@@ -26,12 +26,15 @@ class FootRecord:
         Fulcrum of each setting by its name [m].
     origin
         Numbers by their names in `foot_numbers`, with where they are from; `sole places` is for the spheres' places.
+    actuator
+        Speed at which the fulcrum can be moved without load [m/s]; None where it is not known.
     """
 
     name: str
     below: float
     settings: Mapping[str, float] = field(default_factory=dict)
     origin: Mapping[str, Number] = field(default_factory=dict)
+    actuator: float | None = None
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,6 @@ class VariableStiffnessFoot:
     law: SoleLaw
     record: FootRecord
 
-    def at(self, fulcrum: float, *, torsion: bool = False) -> QuasiStaticKeel:
+    def at(self, fulcrum: float) -> QuasiStaticKeel:
         """At a fulcrum [m], without inertia."""
-        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law, torsion)
+        return QuasiStaticKeel(self.keel, fulcrum, self.sole, self.law)

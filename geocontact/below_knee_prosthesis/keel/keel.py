@@ -121,6 +121,8 @@ class Keel:
         Curvature over which both turn [1/m].
     sections
         Factors on EI and GJ along the keel; mass is spread evenly whatever they are.
+    twists
+        Whether it turns about its long axis as well, by GJ: one hinge at the first joint, before all others.
 
     ValueError for a length, stiffness or mass that is not positive, or a range that is not on the keel.
     """
@@ -140,6 +142,7 @@ class Keel:
     friction: float = 0.0
     presliding: float = 0.05
     sections: Sections = ONE
+    twists: bool = False
 
     def __post_init__(self) -> None:
         positive = (self.posterior, self.bending, self.torsional, self.width, self.thickness, self.density, self.joints)
@@ -158,6 +161,11 @@ class Keel:
     def places(self) -> Float[np.ndarray, " n"]:
         """x of the joints [m]."""
         return self.posterior + self.pitch * np.arange(self.joints)
+
+    @property
+    def hinges(self) -> int:
+        """How many coordinates it has: its joints, and the one about its long axis where it twists."""
+        return self.joints + int(self.twists)
 
     @property
     def pitch(self) -> float:

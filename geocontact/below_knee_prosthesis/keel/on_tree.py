@@ -88,26 +88,24 @@ TORSION = "torsion"
 
 
 def keel_bodies(
-    keel: Keel, parent: str, X_PK: RigidTransform, *, name: str = "keel", torsion: bool = False, ending: str = ""
+    keel: Keel, parent: str, X_PK: RigidTransform, *, name: str = "keel", ending: str = ""
 ) -> tuple[tuple[Body, ...], tuple[JointModel, ...]]:
     """Segments in front of the first joint, and their joints, to follow the parent's in a `Multibody`.
 
-    Bodies, joints and coordinates are `name`_1 to `name`_n. What lies behind the first joint is rigid: it is part of
-    the parent, whose mass has to hold it (`posterior_part`).
+    Bodies, joints and coordinates are `name`_1 to `name`_n, behind `name`_torsion of a keel that twists. What lies
+    behind the first joint is rigid: it is part of the parent, whose mass has to hold it (`posterior_part`).
 
     Parameters
     ----------
     X_PK
         Pose of the keel's frame in the parent.
-    torsion
-        Whether the first joint also turns about the keel's long axis, before all others: `name`_torsion.
     ending
         Of all these names, as that of a side.
     """
     forward, up = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
     at = X_PK * RigidTransform.from_translation(keel.places[0] * forward)
     bodies, joints, before = [], [], parent
-    if torsion:
+    if keel.twists:
         twisted = f"{name}_{TORSION}{ending}"
         bodies.append(Body(twisted, 0.0, np.zeros(3), np.zeros((3, 3))))
         joints.append(revolute(twisted, parent, twisted, forward, at))
@@ -132,27 +130,27 @@ def piece(keel: Keel, long: float) -> tuple[float, np.ndarray, np.ndarray]:
     return mass, np.array([0.5 * long, 0.0, 0.0]), mass / 12.0 * np.diag(squares.sum() - squares)
 
 
-def coordinates(keel: Keel, *, name: str = "keel", torsion: bool = False) -> list[str]:
+def coordinates(keel: Keel, *, name: str = "keel") -> list[str]:
     """Names in the tree's order."""
-    return [*([f"{name}_{TORSION}"] if torsion else []), *(f"{name}_{k}" for k in range(1, keel.joints + 1))]
+    return [*([f"{name}_{TORSION}"] if keel.twists else []), *(f"{name}_{k}" for k in range(1, keel.joints + 1))]
 
 
-def joint_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def joint_numbers(keel: Keel, fulcrum: float) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness [N m/rad] and damping [N m s/rad] in the order of `coordinates`."""
     stiffness, damping = keel.stiffness(fulcrum), keel.damping(fulcrum)
-    if torsion:
+    if keel.twists:
         k, b = keel.torsion(fulcrum)
         return np.append(k, stiffness), np.append(b, damping)
     return stiffness, damping
 
 
-def rubbing_numbers(keel: Keel, fulcrum: float, *, torsion: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def rubbing_numbers(keel: Keel, fulcrum: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Friction over the angle's size [N m/rad] and at any angle [N m], and the turn over which both build up [rad].
 
     None in torsion.
     """
     size, held = keel.hysteresis * keel.stiffness(fulcrum), keel.bending_at_joints * keel.friction
-    first = (np.zeros(1), np.zeros(1), np.ones(1)) if torsion else (np.zeros(0),) * 3
+    first = (np.zeros(1), np.zeros(1), np.ones(1)) if keel.twists else (np.zeros(0),) * 3
     size, held, reach = (np.append(*pair) for pair in zip(first, (size, held, keel.reach(fulcrum)), strict=True))
     return size, held, reach
 

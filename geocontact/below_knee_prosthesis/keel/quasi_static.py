@@ -13,6 +13,7 @@ falls with speed, from the static to the kinetic coefficient, a keel without ine
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -46,7 +47,7 @@ def loads_at(
     rate: Float[np.ndarray, "t 4 4"],
     ground: Ground,
 ) -> SphereLoads:
-    """At angles [rad] and their rates [rad/s] of a keel without torsion, along poses `X_GK` and their derivative.
+    """At angles [rad] and their rates [rad/s] of a keel, along poses `X_GK` and their derivative.
 
     Off a plane each segment is a rigid foot of its own, for `loads.sphere_set`; ValueError where a sphere is deeper
     than its radius there.
@@ -56,10 +57,14 @@ def loads_at(
     frames, segments = len(angles), np.array(keel.sole.segment)
     matrix, moving = poses.as_matrix().reshape(-1, 4, 4), np.asarray(rate)
     found: dict[str, Float[np.ndarray, ...]] = {}
+    more = int(keel.keel.twists)
     for segment in range(keel.keel.joints + 1):
+        if segment == 1 and more:
+            step, slope = _hinge("x", angles[:, 0], speeds[:, 0], 0.0)
+            matrix, moving = matrix @ step, moving @ step + matrix @ slope
         if segment:
-            at = keel.keel.places[0] if segment == 1 else keel.keel.pitch
-            step, slope = _hinge(angles[:, segment - 1], speeds[:, segment - 1], at)
+            at, k = keel.keel.places[0] if segment == 1 else keel.keel.pitch, segment - 1 + more
+            step, slope = _hinge("z", angles[:, k], speeds[:, k], at)
             matrix, moving = matrix @ step, moving @ step + matrix @ slope
         spheres, chosen = keel.sole.on(segment, keel.keel), segments == segment
         if spheres is None:
@@ -81,14 +86,15 @@ def loads_at(
 
 
 def _hinge(
-    angle: Float[np.ndarray, " t"], speed: Float[np.ndarray, " t"], ahead: float
+    axis: Literal["x", "z"], angle: Float[np.ndarray, " t"], speed: Float[np.ndarray, " t"], ahead: float
 ) -> tuple[Float[np.ndarray, "t 4 4"], Float[np.ndarray, "t 4 4"]]:
-    """Pose of a segment in the one before, and its derivative."""
+    """Pose of a segment in the one before, some way ahead of it [m] and turned about an axis, and its derivative."""
     step, slope = np.zeros((2, len(angle), 4, 4))
-    step[:, :3, :3] = Rotation.from_euler("z", angle[:, None]).as_matrix()
+    step[:, :3, :3] = Rotation.from_euler(axis, angle[:, None]).as_matrix()
     step[:, 0, 3], step[:, 3, 3] = ahead, 1.0
     s, c = np.sin(angle) * speed, np.cos(angle) * speed
-    slope[:, 0, 0], slope[:, 0, 1], slope[:, 1, 0], slope[:, 1, 1] = -s, -c, c, -s
+    i, j = (1, 2) if axis == "x" else (0, 1)
+    slope[:, i, i], slope[:, i, j], slope[:, j, i], slope[:, j, j] = -s, -c, c, -s
     return step, slope
 
 
@@ -137,19 +143,12 @@ class KeelMotion:
 
 @dataclass(frozen=True)
 class QuasiStaticKeel:
-    """A keel at one fulcrum on its sole.
-
-    Parameters
-    ----------
-    torsion
-        Whether it turns about its long axis.
-    """
+    """A keel at one fulcrum on its sole."""
 
     keel: Keel
     fulcrum: float
     sole: KeelSole
     law: SoleLaw
-    torsion: bool = False
 
     def solve(
         self,
@@ -206,7 +205,7 @@ class QuasiStaticKeel:
         seen = seen_by_keel(poses, under, gravity, rate, count)
         frames = len(seen.planes)
         per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
-        joints = self.keel.joints + int(self.torsion)
+        joints = self.keel.hinges
         angles, left = np.empty((frames, joints)), np.empty(frames)
         told, steps = np.empty((frames, count, TOLD)), np.zeros(frames, np.int64)
         found = newton_kernel.solve_frames(
@@ -259,7 +258,7 @@ class QuasiStaticKeel:
         falling
             Whether friction falls from the static to the kinetic coefficient.
         """
-        keel, spheres, law, more = self.keel, self.sole.spheres, self.law, int(self.torsion)
+        keel, spheres, law, more = self.keel, self.sole.spheres, self.law, int(self.keel.twists)
         forward, right = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
         places = np.concatenate([keel.places[:more], keel.places])
         axes = np.array([forward] * more + [right] * keel.joints)
@@ -281,7 +280,7 @@ class QuasiStaticKeel:
         middles = (keel.places + 0.5 * keel.pitch)[:, None] * forward
         bearer = np.arange(keel.joints, dtype=np.int64) + more
         pairs = (joint_numbers, rubbing_numbers)
-        springs = np.array([each for pair in pairs for each in pair(keel, self.fulcrum, torsion=self.torsion)])
+        springs = np.array([each for pair in pairs for each in pair(keel, self.fulcrum)])
         springs[2:4] *= moving
         return (
             springs, places[:, None] * forward, axes, spheres.centre.astype(float), last, numbers, shared,

@@ -70,6 +70,7 @@ def _quantity(known: str | Plausible) -> FootQuantity:
     return FootQuantity(known, sources=SOURCES)
 
 
+MM_PER_S = Unit("mm/s", "m/s", 1e-3)
 N_M2, KG_PER_M3 = Unit("N m^2", "N m^2", 1.0), Unit("kg/m^3", "kg/m^3", 1.0)
 PLACE = Plausible("a place along a keel", mm, (0.0, 500.0))
 THICKNESS = Plausible("the thickness of a keel", mm, (0.3, 40.0), (2.0, 15.0), why="leaves of carbon and glass fibre")
@@ -93,6 +94,7 @@ COLUMN = Plausible("the breadth of a column of foam", mm, (0.2, 50.0), (0.5, 10.
 ACROSS = Plausible("columns of foam side by side", PLAIN, (1.0, 40.0))
 GAUGE = Plausible("the standard deviation of a measured deflection", mm, (0.0, 500.0), (1e-3, 1.0), or_zero=True)
 PRESSED = Plausible("how far a sole is compressed", mm, (0.0, 500.0), (0.5, 30.0))
+ACTUATOR = Plausible("the speed of a fulcrum's actuator", MM_PER_S, (0.1, 5000.0), (5.0, 1000.0))
 TILTED = Plausible("the tilt of a plate against a sole", deg, (-90.0, 90.0), (0.0, 45.0))
 SPREAD = Plausible("the standard deviation of a foot's stiffness", N_PER_MM, (0.0, 1e4), (0.001, 50.0))
 
@@ -143,7 +145,7 @@ class KeelDescription(Document):
     posterior
         From its posterior end to the first joint.
     joints
-        How many joints stand for the beam, evenly from the first one to the tip; 8 by default.
+        How many, evenly from the first to the tip; 8 by default.
     lowest, highest
         Range of the fulcrum.
     width, density
@@ -151,13 +153,15 @@ class KeelDescription(Document):
     thickness
         By default from EI, `modulus` and `width`.
     bending
-        EI; by default from `modulus`, `width` and `thickness`. Without these it has to be identified.
+        EI; by default from `modulus`, `width` and `thickness`, else identified.
     modulus, shear_modulus
         Of the material.
     torsional
         GJ; by default from EI as of a flat section.
+    twists
+        Whether it turns about its long axis, by GJ.
     retardation
-        Damping over stiffness; 2 ms by default, which is invented.
+        Damping over stiffness; 2 ms by default, invented.
     support
         How the posterior end is held.
     sections
@@ -176,6 +180,7 @@ class KeelDescription(Document):
     modulus: Modulus | None = None
     shear_modulus: Modulus | None = None
     torsional: Bending | None = None
+    twists: bool = False
     retardation: Retardation | None = None
     support: Literal["pinned", "clamped"] = "pinned"
     sections: Annotated[tuple[KeelSection, ...], Rows] = ()
@@ -295,7 +300,7 @@ class Compression(Document):
     setting, fulcrum
         Setting of the foot, or place of its fulcrum; one of both.
     sought
-        Whether the place of the fulcrum is not known and is identified with the keel.
+        Whether the fulcrum's place is identified with the keel.
     curve
         Table with `force [N]` and `deflection [mm]`.
     stiffness, sd
@@ -321,6 +326,18 @@ class Compression(Document):
         return self
 
 
+class Actuator(Document):
+    """What moves the fulcrum of a semi-active foot.
+
+    Parameters
+    ----------
+    speed
+        Without load.
+    """
+
+    speed: Annotated[StatedNumber, _quantity(ACTUATOR)]
+
+
 class Bench(Document):
     """How the compressions were done.
 
@@ -335,7 +352,7 @@ class Bench(Document):
     tilt
         Of the plate against the sole, toes first; 20 degrees by default.
     travel
-        Over which the sole is compressed when its numbers are fitted; 5 mm by default.
+        Of the sole when its numbers are fitted; 5 mm by default.
     """
 
     at: Length | None = None
@@ -360,6 +377,8 @@ class FootDescription(Document):
         Spheres and their law; by default those of the variable-stiffness foot, stretched to the keel's length.
     foam
         Foam in place of spheres.
+    actuator
+        What moves the fulcrum; not known by default.
     bench
         How the compressions were done.
     compressions
@@ -371,6 +390,7 @@ class FootDescription(Document):
     settings: dict[str, Length] = Field(default_factory=dict)
     sole: SoleDescription | None = None
     foam: FoamDescription | None = None
+    actuator: Actuator | None = None
     bench: Bench = Field(default_factory=Bench)
     compressions: Annotated[tuple[Compression, ...], Listed("compression_{number}", doubled), Rows] = ()
 

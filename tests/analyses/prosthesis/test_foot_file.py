@@ -13,6 +13,7 @@ import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.compare.stances import read as read_study
+from geocontact.analyses.prosthesis.design.trial import in_plane
 from geocontact.analyses.prosthesis.foot_file import SHIPPED, foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.foot_writer import write_foot
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -104,6 +105,19 @@ def test_sections_by_thickness_have_the_stiffness_of_each(tmp_path: Path) -> Non
     assert keel.bending == pytest.approx(20e9 * 0.05 * 0.010**3 / 12.0, rel=1e-12)
     assert keel.sections.edges == (pytest.approx(0.1),)
     assert keel.sections.factors == (1.0, pytest.approx(0.04 * 0.008**3 / (0.05 * 0.010**3), rel=1e-12))
+
+
+def test_a_keel_twists_where_its_file_says_so(tmp_path: Path) -> None:
+    """GJ = 4 G/E EI of a flat section by default; a foot reads back as it is written; plane feet leave it out."""
+    assert not foot_of(written(tmp_path)).keel.twists
+    foot = foot_of(written(tmp_path, ("\n[settings]", "twists = true\n\n[settings]")))
+    assert foot.keel.twists
+    assert foot.keel.hinges == foot.keel.joints + 1
+    write_foot(tmp_path / "again", foot)
+    again = foot_of(tmp_path / "again" / "foot.toml").keel
+    assert (again.twists, again.torsional) == (True, pytest.approx(foot.keel.torsional, rel=1e-12))
+    with pytest.warns(gc.InputWarning, match="twists by its file, and does not here"):
+        assert not in_plane(foot).keel.twists
 
 
 def test_the_shipped_foot_is_a_file_with_the_numbers_of_the_study() -> None:

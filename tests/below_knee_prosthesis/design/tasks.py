@@ -31,5 +31,6 @@ def a_task(frames: int = 12) -> FootTask:
         leg_length=0.95,
         weight=760.0,
         pelvis=np.radians(-4.0 + 6.0 * share),
+        acceleration=np.zeros((frames, 4)),
         needed=np.column_stack([8.0 - 30.0 * share, 5.0 - 12.0 * share]),
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,7 @@ from geocontact.analyses.prosthesis.design.options import ProsthesisDesignOption
 from geocontact.analyses.prosthesis.design.trial import read
 from geocontact.below_knee_prosthesis.design.foot_map import CarriedLoad, with_angles_kept
 from geocontact.below_knee_prosthesis.design.foot_task import Terrain, needed_of
+from geocontact.below_knee_prosthesis.design.joint_torques_kept import recorded_motion
 from geocontact.below_knee_prosthesis.design.knob import Knob
 from geocontact.below_knee_prosthesis.design.outcomes import outcomes
 from tests.below_knee_prosthesis.design.tasks import a_task
@@ -39,13 +42,13 @@ def places(q: np.ndarray) -> dict[str, np.ndarray]:
     return {"hip": q[:, :2], "knee": knee, "thigh": q[:, :2] + leg.thigh[1] * down, "shank": shank}
 
 
-def test_what_weight_and_inertia_need_by_newton_and_euler() -> None:
-    """Accelerations by differences of places, moments about hip and knee by crosses."""
-    leg, time, step = a_task().leg, np.linspace(0.0, 0.6, 601), 1e-4
+def newton_and_euler(course: Callable[[np.ndarray], np.ndarray], time: np.ndarray) -> np.ndarray:
+    """Moments about hip and knee."""
+    leg, step = a_task().leg, 1e-4
     (m1, _, i1), (m2, i2) = leg.thigh, leg.shank
-    ahead, now, back = (places(moved(time + by)) for by in (step, 0.0, -step))
+    ahead, now, back = (places(course(time + by)) for by in (step, 0.0, -step))
     pull = {name: (ahead[name] - 2.0 * now[name] + back[name]) / step**2 + [0.0, G] for name in ("thigh", "shank")}
-    spin = (moved(time + step) - 2.0 * moved(time) + moved(time - step))[:, 2:] / step**2
+    spin = (course(time + step) - 2.0 * course(time) + course(time - step))[:, 2:] / step**2
 
     def cross(point: str, body: str, mass: float) -> np.ndarray:
         (x, y), (fx, fy) = (now[body] - now[point]).T, mass * pull[body].T
@@ -53,9 +56,15 @@ def test_what_weight_and_inertia_need_by_newton_and_euler() -> None:
 
     knee = cross("knee", "shank", m2) + i2 * spin[:, 1]
     hip = cross("hip", "thigh", m1) + cross("hip", "shank", m2) + i1 * spin[:, 0] + i2 * spin[:, 1]
-    found = needed_of(leg, time, moved(time))
+    return np.column_stack([hip, knee])
+
+
+def test_what_weight_and_inertia_need_by_newton_and_euler() -> None:
+    """Accelerations by differences of places, moments about hip and knee by crosses."""
+    time = np.linspace(0.0, 0.6, 601)
+    own, found = newton_and_euler(moved, time), needed_of(a_task().leg, time, moved(time))
     inside = slice(10, -10)
-    np.testing.assert_allclose(found[inside], np.column_stack([hip, knee])[inside], atol=2e-4 * np.abs(hip).max())
+    np.testing.assert_allclose(found[inside], own[inside], atol=2e-4 * np.abs(own).max())
 
 
 def by_hand(found: CarriedLoad) -> np.ndarray:
@@ -115,6 +124,27 @@ def test_torques_kept_are_those_of_the_present_foot_and_the_springs() -> None:
         spring = -size * (off + 0.05 * np.gradient(off, moved_by.time, axis=0))
         at = np.column_stack([np.interp(task.time, moved_by.time, each) for each in spring.T])
         np.testing.assert_allclose(found.leg_torques - kept, at, atol=0.02 * np.abs(kept).max())
+
+
+def rolled(t: np.ndarray) -> np.ndarray:
+    """Leg of `a_task` over time, hip and turns, before and after it as well."""
+    share = t / 0.6
+    hip = [1.1 * t + 0.02 * np.sin(9.0 * t), 0.9 + 0.02 * np.cos(8.0 * t)]
+    return np.stack([*hip, np.radians(24.0 - 22.0 * share), np.radians(8.0 - 26.0 * share)], axis=-1)
+
+
+def test_what_drives_the_leg_is_what_the_present_foot_needs_from_the_first_frame_on() -> None:
+    """Accelerations of the whole motion, which goes on beyond the loaded stance; torques by hand at every frame."""
+    from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot
+
+    task, step = a_task(61), 1e-4
+    bent = (rolled(task.time + step) - 2.0 * rolled(task.time) + rolled(task.time - step)) / step**2
+    task = replace(task, needed=newton_and_euler(rolled, task.time), acceleration=bent)
+    maps = Knob("fulcrum", np.array([0.117]), 0.117).maps(vsf_foot(), task)
+    own, recorded = by_hand(with_angles_kept(maps[-1], task)), recorded_motion(maps[-1], task)
+    torques = np.column_stack([recorded.driven[:, 2] + recorded.driven[:, 3], recorded.driven[:, 3]])
+    found = np.column_stack([np.interp(task.time, recorded.time, each) for each in torques.T])
+    np.testing.assert_allclose(found, own, atol=0.02 * np.abs(own).max())
 
 
 @pytest.mark.slow

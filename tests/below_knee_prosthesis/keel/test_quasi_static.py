@@ -37,9 +37,9 @@ AT = RigidTransform.identity()
 
 
 def foot(*, torsion: bool = True) -> QuasiStaticKeel:
-    keel = vsf_keel()
+    keel = replace(vsf_keel(), twists=torsion)
     sole = sole_of(keel)
-    return QuasiStaticKeel(keel, FULCRUM, sole, law_of(sole), torsion)
+    return QuasiStaticKeel(keel, FULCRUM, sole, law_of(sole))
 
 
 def on_tip(joints: int, series: float = 1e9) -> QuasiStaticKeel:
@@ -101,14 +101,14 @@ def equations() -> Equations:
     """The same chain as a tree on a foot that is prescribed; segments weigh nothing."""
     one = foot()
     keel = replace(one.keel, density=1e-9)
-    bodies, joints = keel_bodies(keel, "foot", AT, torsion=True)
+    bodies, joints = keel_bodies(keel, "foot", AT)
     whole = (Body("foot", 1.0, np.zeros(3), np.eye(3)), *bodies)
     tree = tree_of(Multibody("keel", whole, (free("root", GROUND, "foot"), *joints), (), GRAVITY))
-    names = coordinates(keel, torsion=True)
+    names = coordinates(keel)
     return equations_of_motion(
         tree,
         loads=sole_wrenches(tree, "foot", AT, keel, one.sole, one.law, SLOPE),
-        along=along_keel(tree, names, *(np.asarray(each) for each in joint_numbers(keel, FULCRUM, torsion=True))),
+        along=along_keel(tree, names, *(np.asarray(each) for each in joint_numbers(keel, FULCRUM))),
         prescribed=[name for name in tree.names if name.startswith("root")],
     )
 

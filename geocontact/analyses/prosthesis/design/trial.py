@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +52,7 @@ class FootAndTrial:
 def read(o: ProsthesisDesignOptions) -> FootAndTrial:
     """Everything the options name."""
     with listener().preparing():
-        foot = foot_of(o.foot)
+        foot = in_plane(foot_of(o.foot))
         fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
         foot = foot_with_law(foot, o.law)
         require_factors(foot, o.foot, o.law)
@@ -81,6 +81,14 @@ def read(o: ProsthesisDesignOptions) -> FootAndTrial:
         reserve("for this sole only the general prior is used: give the `numbers` of a calibration")
         return FootAndTrial(foot, trial, stance, zones.sd, intact)
     return FootAndTrial(foot, trial, stance, _known(o.numbers, zones), intact)
+
+
+def in_plane(foot: VariableStiffnessFoot) -> VariableStiffnessFoot:
+    """Without torsion: the leg that another foot is tried under moves in its sagittal plane, where nothing twists."""
+    if not foot.keel.twists:
+        return foot
+    reserve("the keel twists by its file, and does not here: feet are compared in the sagittal plane")
+    return replace(foot, keel=replace(foot.keel, twists=False))
 
 
 def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:

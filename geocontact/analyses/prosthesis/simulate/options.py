@@ -69,6 +69,9 @@ class ProsthesisSimulateOptions(Options):
         Setting of the foot: low, medium or high, 10, 19 or 32 N/mm, or one of its own file.
     fulcrum
         Place of the fulcrum from the keel's posterior end in place of a setting; 66 to 151 mm on the shipped foot.
+    schedule
+        Of a semi-active foot, in place of a setting (.csv): what setting or fulcrum [mm] from which stride [-],
+        time [s], speed [m/s] or phase [%] on. Every whole stance on `plate` is simulated, each at its own fulcrum.
     law
         Numbers of the sole (.toml), as `prosthesis calibrate` leaves them; built in by default. With them go height
         and pitch of the foot relative to its standing trial, where that is `static`.
@@ -136,9 +139,9 @@ class ProsthesisSimulateOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes stance.csv, errors.csv and curves.csv with a force plate, band.csv with `walks`, numbers.csv with the source
-    of every number, coordinates.sto, ground_reaction.mot and .xml (external loads for OpenSim and `geocontact id`),
-    paraview, a figure, report.html (moving foot with forces) and run.json into OUT.
+    Writes stance.csv, errors.csv and curves.csv with a force plate, strides.csv with `schedule`, band.csv with `walks`,
+    numbers.csv with the source of every number, coordinates.sto, ground_reaction.mot and .xml (external loads for
+    OpenSim and `geocontact id`), paraview, a figure, report.html (moving foot with forces) and run.json into OUT.
     """
 
     markers: Path
@@ -154,6 +157,7 @@ class ProsthesisSimulateOptions(Options):
     foot: Path | None = None
     setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
+    schedule: Annotated[Path | None, Requires("plate")] = None
     law: Path | None = None
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     socket_numbers: Path | None = None
@@ -191,6 +195,8 @@ class ProsthesisSimulateOptions(Options):
             raise InputError("", "`plate`", what, "each foot needs a plate of its own")
         if self.plate is None and self.score != "stance":
             raise InputError("", "`score`", "without a plate nothing is compared", "name the `plate`")
+        if self.schedule is not None and (self.fulcrum is not None or self.setting != "medium"):
+            raise InputError("", "`schedule`", "it stands in place of `setting` and `fulcrum`", "give one of them")
         require_turns(self.socket_turns)
         require_walks(self.walks)
         require_one_socket(self.socket, self.socket_numbers)

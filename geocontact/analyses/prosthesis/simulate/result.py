@@ -16,7 +16,7 @@ warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,6 +32,12 @@ from geocontact.analyses.prosthesis.quantity_words import NAMES, SAID
 from geocontact.analyses.prosthesis.scores import OVER, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
+from geocontact.analyses.prosthesis.simulate.strides import (
+    ScheduledStance,
+    say_strides,
+    scheduled,
+    strides_table,
+)
 from geocontact.analyses.prosthesis.simulate.walk import (
     MARKER_ERROR,
     RecordedWalk,
@@ -88,6 +94,7 @@ def stance_table(s: Stance, side: Side) -> pd.DataFrame:
             "ankle moment [N m]": s.ankle_moment,
             "stored [J]": s.stored,
             "lost [J]": s.lost,
+            **({} if s.twist is None else {"keel twist [deg]": np.degrees(s.twist)}),
             **{
                 f"{name} [deg]": np.degrees(column)
                 for name, column in zip(SOCKET[:3], s.found.q[:, 2:5].T, strict=True)
@@ -142,6 +149,8 @@ class ProsthesisSimulateResult(Result):
         How far errors of the markers move the curves; None where no draws were asked for.
     still
         Standing still on the foot; None where that was not asked for.
+    strides
+        Every stance at the fulcrum of its schedule; `stance` is the longest on the plate. None without a schedule.
     """
 
     options: ProsthesisSimulateOptions
@@ -151,6 +160,7 @@ class ProsthesisSimulateResult(Result):
     numbers: Mapping[str, Number]
     band: MarkerBand | None = None
     still: StandingStill | None = None
+    strides: tuple[ScheduledStance, ...] = ()
 
     @property
     def time(self) -> Float[np.ndarray, " t"]:
@@ -178,10 +188,12 @@ class ProsthesisSimulateResult(Result):
         return self.stance.stored
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`stance` over time, `numbers`, with a plate `errors` and `curves`, with draws `band`."""
+        """`stance` over time, `numbers`, with a plate `errors` and `curves`, `strides`, `band` of draws."""
         told = {"stance": stance_table(self.stance, self.options.side), "numbers": numbers_table(self.numbers)}
         if self.errors is not None:
             told |= {"errors": errors_table(self.errors), "curves": curves_table(self.errors)}
+        if self.strides:
+            told["strides"] = strides_table(self.strides)
         if self.band is not None:
             told["band"] = band_table(self.band)
         return told
@@ -209,10 +221,16 @@ class ProsthesisSimulateResult(Result):
 def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimulateResult:
     """The walk, and its stance from before touch-down to after toe-off."""
     walk = walk_of(recorded, o)
+    strides = () if recorded.schedule is None else scheduled(walk, recorded.schedule, o)
+    if strides:
+        longest = max(strides, key=lambda each: each.stride.stance[1] - each.stride.stance[0])
+        walk, limb = longest.walk, longest.limb
+        recorded = replace(recorded, fulcrum=walk.fulcrum, plate=walk.plate)
+    else:
+        limb = simulated(walk, o)
     numbers = all_numbers(walk.leg, walk.foot, walk.fulcrum, bushing_of(o))
     invented = sum(number.source == "invented" for number in numbers.values())
     reserve(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
-    limb = simulated(walk, o)
     found = limb.stance
     if not found.on.any():
         raise InputError(
@@ -227,6 +245,8 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     note("stance", plain(told))
     note("socket", plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled}))
     say(found_words(found, told))
+    if recorded.schedule is not None:
+        say_strides(strides, recorded.schedule.by)
     if errors is not None and walk.plate is not None:
         say(beside_words(errors))
         judge(against_the_plate(found, walk.plate, OVER[o.score]))
@@ -235,7 +255,7 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
         say(offset_words(walk.leg.offset))
     band, still = _band(recorded, walk, found, o), _still(walk, o)
     return ProsthesisSimulateResult(
-        options=o, walk=walk, stance=found, errors=errors, numbers=numbers, band=band, still=still
+        options=o, walk=walk, stance=found, errors=errors, numbers=numbers, band=band, still=still, strides=strides
     )
 
 

@@ -57,6 +57,11 @@ OWN_CALIBRATED = (
     "The foot is a keel on hinges on {kinds}, as its file describes it; their forces, and the offset of the foot from "
     "its standing trial, are from the law's file."
 )
+SCHEDULED = (
+    "The fulcrum moves in the swing before a stance and stays through it. Each stance is simulated from its recorded "
+    "start at its own fulcrum, along the person's motion as it was recorded: how the person would answer another "
+    "setting is not in it. Curves and the moving foot are those of the longest stance."
+)
 TWICE = (
     "Markers on the socket include its rotation against the residual limb, so this rotation is in the knee angle as "
     "well as in the bushing."
@@ -85,6 +90,7 @@ def stance_page(
             else []
         ),
         *small_forces(tables.get("errors")),
+        *strides_sections(tables),
         frame_table("Numbers of leg and foot in SI, and where they are from", with_units(tables["numbers"])),
         INPUTS,
         OPTIONS,
@@ -106,6 +112,13 @@ def stance_page(
         numbers=shown + 1,
         total=len(s.time),
     )
+
+
+def strides_sections(tables: Mapping[str, pd.DataFrame]) -> list[Section]:
+    """Every stride of a schedule, and what it means; nothing without one."""
+    if "strides" not in tables:
+        return []
+    return [frame_table("Strides", tables["strides"]), Words("The schedule", [SCHEDULED])]
 
 
 def small_forces(errors: pd.DataFrame | None) -> list[Words]:
@@ -175,7 +188,9 @@ def _keel(s: Stance) -> Float[np.ndarray, "t n 3"]:
     """The keel's end, joints and tip in the laboratory [m]."""
     keel = s.foot.keel
     angle = np.cumsum(s.keel_angles, axis=1)
-    steps = keel.pitch * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=2)
+    twist = np.zeros((len(s.time), 1)) if s.twist is None else s.twist[:, None]
+    up, across = np.cos(twist), np.sin(twist)
+    steps = keel.pitch * np.stack([np.cos(angle), up * np.sin(angle), across * np.sin(angle)], axis=2)
     first = np.broadcast_to([keel.posterior, 0.0, 0.0], (len(s.time), 1, 3))
     points = np.concatenate([np.zeros_like(first), first, first + np.cumsum(steps, axis=1)], axis=1)
     turned = np.einsum("tij,tnj->tni", s.poses.rotation.as_matrix(), points)

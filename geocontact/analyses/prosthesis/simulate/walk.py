@@ -13,7 +13,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, reserve, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
-from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
+from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at, read_schedule
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.scores import ROOM, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -24,6 +24,7 @@ from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band, with_errors
 from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, simulated_walk
+from geocontact.below_knee_prosthesis.schedule import FulcrumSchedule
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
 from geocontact.data.errors import InputError
@@ -50,6 +51,8 @@ class RecordedWalk:
         [m].
     offset
         The foot beside its standing trial.
+    schedule
+        Of the fulcrum over strides; None where it stays.
     """
 
     standing: MarkerTrajectories
@@ -61,6 +64,7 @@ class RecordedWalk:
     foot: VariableStiffnessFoot
     fulcrum: float
     offset: FootOffset
+    schedule: FulcrumSchedule | None = None
 
 
 def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
@@ -68,7 +72,8 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     ground = _ground(o)
     foot = foot_of(o.foot)
-    fulcrum = fulcrum_at(foot, o.setting, o.fulcrum)
+    schedule = None if o.schedule is None else read_schedule(o.schedule, foot)
+    fulcrum = schedule.places[0].fulcrum if schedule else fulcrum_at(foot, o.setting, o.fulcrum)
     foot = foot_with_law(foot, o.law)
     if o.socket_numbers is not None:
         bushing_of(o)
@@ -98,6 +103,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
         foot=foot,
         fulcrum=fulcrum,
         offset=offset,
+        schedule=schedule,
     )
 
 
