@@ -26,7 +26,7 @@ from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
 from geocontact.analyses.sit_to_stand.coordinates.read import PlanarRecording, read
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import FEWEST
+from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.opensim.storage_writer import write_storage

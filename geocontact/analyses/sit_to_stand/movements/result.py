@@ -27,7 +27,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import chair_force, doubt_knee, motion_of_file, require_one_clock
+from geocontact.analyses.sit_to_stand.trial_recordings import chair_force, doubt_knee, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
