@@ -1,4 +1,4 @@
-"""The three large studies are made by one command each, and the commands of the package take them."""
+"""The three large studies are made by one command each, and what reads their descriptions takes them."""
 
 from __future__ import annotations
 
@@ -98,20 +98,3 @@ def test_the_nine_trials_are_of_one_session(
     ]
     assert names == [["T1", "T2", "T3"], ["P1", "P2", "P3", "P4", "P5", "P6"]]
     assert command_of(capsys)[3] == str(tmp_path / "calibration.toml")
-
-
-@pytest.mark.slow
-def test_a_walk_of_the_prosthesis_study_is_taken_by_the_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Two trials of one person, made and compared with their plates."""
-    import geocontact as gc
-
-    few = {"medium": ("P3_medium_1", "medium"), "low": ("P3_low_1", "low")}
-    monkeypatch.setattr(compare, "trials_of", lambda person: list(few.values()))
-    text = compare.recorded(tmp_path, PARTICIPANTS[2], False)
-    (tmp_path / "study.toml").write_text(text, encoding="ascii")
-    with pytest.warns(gc.InputWarning):
-        found = gc.prosthesis.compare(tmp_path / "study.toml", machine_code=False)
-    errors = found.table("errors")
-    assert set(errors["trial"]) == {"P3_medium_1", "P3_low_1"}
