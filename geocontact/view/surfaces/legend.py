@@ -119,7 +119,7 @@ def annotate(figure: Figure, axes: Axes, scene: ContactScene, view: View, shot: 
     when = {"s": f"t = {scene.time:g} s", "%": f"{scene.time:g} % of the cycle"}.get(
         scene.time_unit, f"{scene.time:g} {scene.time_unit}"
     )
-    axes.set_title(plain(", ".join(part for part in (title, view.name, when) if part), WIDEST_TITLE), fontsize=11)
+    figure.suptitle(plain(", ".join(part for part in (title, view.name, when) if part), WIDEST_TITLE), fontsize=11)
     _colour_bar(figure, axes, scene)
     _legend(figure, scene)
     _scale_bar(axes, shot)
