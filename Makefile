@@ -16,7 +16,7 @@ export PYTHONDONTWRITEBYTECODE :=
 TOGETHER := -rs --durations 25 --durations-min 5 -n auto --maxprocesses 4 --dist loadscope --no-loadscope-reorder
 
 .DELETE_ON_ERROR:
-.PHONY: demo test shapes slow long real check lint types imports docs site oracle lock page clean
+.PHONY: demo test shapes slow long real check lint types imports docs site notebooks oracle lock page clean
 
 demo: $(VENV)/core.stamp
 	@$(BIN)/geocontact demo
@@ -60,13 +60,17 @@ types: $(VENV)/full.stamp
 imports: $(VENV)/full.stamp
 	$(BIN)/lint-imports
 
-# The site with every notebook run anew, since outputs that are kept grow old: build/docs/html/index.html
+# Every notebook run anew, with what is kept of its outputs; some of them: python -m website.notebooks NAME ...
+notebooks: $(VENV)/full.stamp
+	@$(BIN)/python -m website.notebooks
+
+# The site with every notebook run anew and its pages live: build/docs/html/index.html
 docs: $(VENV)/full.stamp
 	@$(BIN)/python -m website.pages
 	@$(BIN)/python -m website --execute
 	@echo "open build/docs/html/index.html"
 
-# The same without outputs, for .ci/run, where tests/notebooks runs one notebook and looks at the calls of all (`make long`
+# The same with outputs as kept, for .ci/run, where tests/notebooks runs one notebook and looks at all (`make long`
 # runs the others); a warning is an error
 site: $(VENV)/full.stamp
 	@$(BIN)/python -m website

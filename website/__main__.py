@@ -22,7 +22,7 @@ def main(words: list[str]) -> int:
     """Build it; the exit code is that of Sphinx."""
     parser = argparse.ArgumentParser(prog="python -m website", description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "docs", help="folder of the site")
-    parser.add_argument("--execute", action="store_true", help="run the notebooks, whose outputs are not kept")
+    parser.add_argument("--execute", action="store_true", help="run the notebooks anew, with live pages")
     given = parser.parse_args(words)
     sources, html = given.out / "sources", given.out / "html"
     stage(sources, api_pages())

@@ -123,7 +123,7 @@ def _run(path: Path) -> Any:
 
 
 def _axis(path: Path) -> Any:
-    from geocontact.analyses.frame.quantities import axis
+    from geocontact.analyses.frame.places import axis
 
     return axis(str(path), "mm")
 

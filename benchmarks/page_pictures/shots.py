@@ -54,7 +54,7 @@ def browser_page(size: tuple[int, int]) -> Iterator[Callable[[Path, str], bytes]
             tab.goto(page.resolve().as_uri())
             tab.wait_for_selector("html[data-ready]", timeout=READY)
             tab.wait_for_timeout(300)
-            png: bytes = tab.screenshot()
+            png: bytes = tab.screenshot(timeout=2 * READY)
             context.close()
             return png
 

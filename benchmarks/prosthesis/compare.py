@@ -40,8 +40,8 @@ def trials_of(person: Walker) -> list[tuple[str, str]]:
     return [each for each in names if each[0] not in MISSING]
 
 
-def written(folder: Path, person: Walker, machine_code: bool) -> str:
-    """Files of all trials of a person and the calibrated law; text of the description."""
+def recorded(folder: Path, person: Walker, machine_code: bool) -> str:
+    """Files of all trials of a person that are not there yet; text of the description, without a law of the sole."""
     for name, setting in trials_of(person):
         place = folder / name
         if not place.is_dir():
@@ -49,6 +49,19 @@ def written(folder: Path, person: Walker, machine_code: bool) -> str:
             place.mkdir(parents=True)
             for file, text in trial_files(trial).items():
                 (place / file).write_text(text, encoding="ascii")
+    medium = f"{person.name}_medium_1"
+    lines = [f"[persons.{person.name}]", f'mass = {{ value = {person.mass}, unit = "kg" }}']
+    lines += [f'static = "{medium}/standing.trc"', f'side = "{person.side}"', f'sex = "{person.sex}"']
+    for name, setting in trials_of(person):
+        lines += ["", "[[trials]]", f'name = "{name}"', f'person = "{person.name}"', f'setting = "{setting}"']
+        lines += [f'markers = "{name}/walking.trc"', f'plates = "{name}/plates.mot"']
+        lines += ['plate = "own_force"', 'other_plate = "other_force"']
+    return "\n".join(lines) + "\n\n"
+
+
+def written(folder: Path, person: Walker, machine_code: bool) -> str:
+    """The same with the sole calibrated on the first medium trial."""
+    text = recorded(folder, person, machine_code)
     medium, law = folder / f"{person.name}_medium_1", folder / f"{person.name}_calibrated"
     if not law.is_dir():
         before = time.process_time()
@@ -61,15 +74,9 @@ def written(folder: Path, person: Walker, machine_code: bool) -> str:
             plate="own_force",
         ).write(law)
         print(f"{person.name}: calibrated in {time.process_time() - before:.0f} s of processor")
-    lines = [f"[persons.{person.name}]", f'mass = {{ value = {person.mass}, unit = "kg" }}']
-    lines += [f'static = "{medium.name}/standing.trc"', f'side = "{person.side}"', f'sex = "{person.sex}"']
-    lines += [f'law = "{law.name}/law.toml"']
-    for name, setting in trials_of(person):
-        lines += ["", "[[trials]]", f'name = "{name}"', f'person = "{person.name}"', f'setting = "{setting}"']
-        lines += [f'markers = "{name}/walking.trc"', f'plates = "{name}/plates.mot"']
-        lines += ['plate = "own_force"', 'other_plate = "other_force"']
-        lines += ["calibrated = true"] if name == medium.name else []
-    return "\n".join(lines) + "\n\n"
+    sex = f'sex = "{person.sex}"\n'
+    name = f'name = "{medium.name}"\n'
+    return text.replace(sex, f'{sex}law = "{law.name}/law.toml"\n').replace(name, f"{name}calibrated = true\n")
 
 
 def main() -> None:

@@ -56,7 +56,7 @@ def test_who_stands_is_not_warned_of(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("found", [v for k in range(3) for v in (np.eye(3)[k], -np.eye(3)[k])])
 def test_suggested_axes_turn_what_is_up_into_up(found: np.ndarray) -> None:
-    from geocontact.analyses.frame.quantities import turned_axes
+    from geocontact.analyses.frame.places import turned_axes
 
     np.testing.assert_allclose(turned_axes(axes_upright(found, UP), "`axes`").apply(found), UP, atol=1e-12)
     after = turned_axes(axes_upright(found, UP, turned_axes("z,x,y", "`axes`")), "`axes`")

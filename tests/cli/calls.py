@@ -98,7 +98,7 @@ def unpictured() -> Iterator[None]:
     """Neither figure nor page are made."""
     with ExitStack() as stack:
         for name in ("area_figure", "pressure_figure"):
-            stack.enter_context(mock.patch(f"geocontact.analyses.area.result.{name}", return_value=b""))
+            stack.enter_context(mock.patch(f"geocontact.analyses.area.motion_outputs.{name}", return_value=b""))
         stack.enter_context(unwritten())
         yield
 

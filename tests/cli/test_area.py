@@ -190,7 +190,7 @@ def test_a_failing_run_leaves_everything_as_it_was(
     before = inventory(out.parent)
     moving = SPHERE if picture else tmp_path / "no.stl"
     if picture:
-        monkeypatch.setattr("geocontact.analyses.area.result.area_figure", mock.Mock(**picture))
+        monkeypatch.setattr("geocontact.analyses.area.motion_outputs.area_figure", mock.Mock(**picture))
     result = area(out, moving=moving, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)), picture=True)
     assert (result.code, len(result.complaints)) == (code, 1), result.err
     assert all(part in result.err for part in said), result.err

@@ -134,7 +134,7 @@ def test_a_failing_run_leaves_the_old_results_alone(
     done(run(out, *everything(tmp_path), *several(tmp_path, "slow", "fast")))
     before = inventory(out)
     poses(tmp_path, (0, 20, 0))
-    monkeypatch.setattr("geocontact.analyses.area.result.area_figure", mock.Mock(**FAILURES[failure]))
+    monkeypatch.setattr("geocontact.analyses.area.motion_outputs.area_figure", mock.Mock(**FAILURES[failure]))
     assert run(out, picture=True).code not in (0, 2)
     assert inventory(out) == before
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geocontact.analyses.frame.quantities import axis
+from geocontact.analyses.frame.places import axis
 from geocontact.analyses.frame.rerun import read_run
 from geocontact.analyses.misalignment.compare.pairs import _law
 from geocontact.data.errors import InputError

@@ -8,8 +8,9 @@ import nbformat
 import pytest
 
 from website.contents import listed
+from website.kept_outputs import plain
 from website.limits import sections, xfails
-from website.notebooks import describe, execute, plain
+from website.notebooks import describe, execute
 from website.pages import MADE
 from website.stage import INDEX, ROOT, pages, stage, with_tables_marked
 from website.validation import FACTORS, report

@@ -14,7 +14,7 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.literature import Flexions, flexions_of
 from geocontact.analyses.area.options import LITERATURE, AreaOptions
-from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame import places, quantities
 from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_body_and_outer, refuse_two_spaces
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
@@ -152,7 +152,7 @@ def _swept(o: AreaOptions, asked: tuple[str, float, float, float], moving: Surfa
         file = quantities.named_file(o.axis)
         if file is not None:
             add_input("`axis`", file)
-        line = quantities.axis(o.axis, o.unit)
+        line = places.axis(o.axis, o.unit)
     else:
         fit = fit_cylinder(moving.vertices[moving.used])
         line = fit.line
@@ -306,7 +306,7 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
         require_pyvista()
     split = None
     if o.split is not None:
-        split = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
+        split = places.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     reference = None
     if o.compare is not None and o.compare != LITERATURE:
         table = read_reference(o.compare)

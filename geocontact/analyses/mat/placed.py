@@ -10,7 +10,8 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, note, reserve
-from geocontact.analyses.frame.quantities import centre, named_file
+from geocontact.analyses.frame.places import centre
+from geocontact.analyses.frame.quantities import named_file
 from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placement import (

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.bodies import check_surfaces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
-from geocontact.analyses.frame.quantities import centre
+from geocontact.analyses.frame.places import centre
 from geocontact.analyses.mat.goodness import goodness_of_registration
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError

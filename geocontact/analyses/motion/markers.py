@@ -11,7 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.marks import LengthUnit
-from geocontact.analyses.frame.quantities import named_file, turned_axes
+from geocontact.analyses.frame.places import turned_axes
+from geocontact.analyses.frame.quantities import named_file
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame import places, quantities
 from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, listener, reserve, say
 from geocontact.analyses.frame.json_file import finite
@@ -99,8 +99,8 @@ def profile_table(profiles: Mapping[str, SagittalProfile]) -> pd.DataFrame:
             "rms [mm]": p.rms * 1e3,
             "normal [deg]": np.degrees(p.normal),
         }
-        for what, places in (("crest", p.crest), ("centre", p.centre)):
-            columns |= {f"{what}_{axis} [mm]": places[:, k] * 1e3 for k, axis in enumerate("xyz")}
+        for what, points in (("crest", p.crest), ("centre", p.centre)):
+            columns |= {f"{what}_{axis} [mm]": points[:, k] * 1e3 for k, axis in enumerate("xyz")}
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)
 
@@ -126,7 +126,7 @@ def read(o: ShapeOptions) -> ShapeInputs:
     counted = np.ones(len(surface.faces), bool) if faces is None else faces
     if o.split is None:
         return ShapeInputs(Patch(surface, counted, o.points == "vertices", None, 0), axis)
-    plane, side = quantities.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
+    plane, side = places.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)
     refuse_other_axes(surface.space, surface.name, o.side, o.medial)
     say(f"medial is {side.words} of {surface.name}")
     return ShapeInputs(Patch(surface, counted, o.points == "vertices", plane, side.sign), axis)
@@ -138,7 +138,7 @@ def sagittal_about(axis: Axis, o: ShapeOptions) -> Sagittal:
         remedy = "say where 0 and 90 degrees are, for example `sagittal`=-y,x"
         raise InputError("", "`sagittal`", "is missing: which way the mesh's axes point is not known", remedy)
     try:
-        return Sagittal(axis, *quantities.directions(o.sagittal, "`sagittal`"))
+        return Sagittal(axis, *places.directions(o.sagittal, "`sagittal`"))
     except ValueError as error:
         raise InputError("", "`sagittal`", str(error), "name two directions across the axis") from error
 
@@ -147,7 +147,7 @@ def _axis(o: ShapeOptions) -> Axis | None:
     if o.axis is None:
         return None
     _note("`axis`", o.axis)
-    return quantities.axis(o.axis, o.unit)
+    return places.axis(o.axis, o.unit)
 
 
 def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str, Values]:
@@ -159,7 +159,7 @@ def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str,
             found |= about_flexion(surface, sagittal_about(axis, o))
     if o.centre is not None:
         _note("`centre`", o.centre)
-        found |= about(surface, quantities.centre(o.centre, o.unit), None, LENGTH[o.unit])
+        found |= about(surface, places.centre(o.centre, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
         other = read_input_surface("other", o.other, o.unit, o.place_other)
         check_surfaces(surface, other, ("mesh", "`other`"))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.view.curves.sheet import plain
 from geocontact.view.curves.style import COLOURS
 from geocontact.view.surfaces.camera import Shot, View
 from geocontact.view.surfaces.scene import ContactScene
@@ -108,6 +109,8 @@ def coloured(
 
 
 MM = 1e3
+WIDEST_TITLE = 62
+"""Characters of a line above a picture."""
 ROUND = np.array([0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0])  # mm
 
 
@@ -116,16 +119,11 @@ def annotate(figure: Figure, axes: Axes, scene: ContactScene, view: View, shot: 
     when = {"s": f"t = {scene.time:g} s", "%": f"{scene.time:g} % of the cycle"}.get(
         scene.time_unit, f"{scene.time:g} {scene.time_unit}"
     )
-    axes.set_title(", ".join(part for part in (_plain(title), _plain(view.name), when) if part), fontsize=11)
+    figure.suptitle(plain(", ".join(part for part in (title, view.name, when) if part), WIDEST_TITLE), fontsize=11)
     _colour_bar(figure, axes, scene)
     _legend(figure, scene)
     _scale_bar(axes, shot)
     _directions(figure, shot)
-
-
-def _plain(text: str) -> str:
-    """Text that stays text: a dollar sign would start a formula."""
-    return " ".join(text.split()).replace("$", r"\$")
 
 
 def _colour_bar(figure: Figure, axes: Axes, scene: ContactScene) -> None:

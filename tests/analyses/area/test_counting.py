@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.area import result as area_result
+from geocontact.analyses.area import motion_outputs
 from geocontact.analyses.area.result import AreaResult
 from geocontact.geometry.contact_area import evolution
 from tests.analyses.area.calls import area
@@ -330,7 +330,7 @@ def test_results_do_not_depend_on_the_number_of_workers(
 def test_figure_shows_the_frame_of_the_largest_area(tmp_path: Path) -> None:
     motion = poses(tmp_path, (0, 22, 0), (0, 20, 0), (0, 21, 0))
     result = area(SPHERE, PLATE, motion)
-    with mock.patch.object(area_result, "area_figure") as drawn:
+    with mock.patch.object(motion_outputs, "area_figure") as drawn:
         result.figure()
     distance, frame = drawn.call_args.args[3:5]
     assert frame == 1

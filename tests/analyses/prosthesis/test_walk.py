@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import geocontact as gc
@@ -14,8 +15,10 @@ from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.marker_tasks import MarkerErrors
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
 from geocontact.analyses.prosthesis.walk.result import goodness_of, names_of_side, pelvis_residuals
+from geocontact.analyses.prosthesis.walk.show import in_body_weight, spoken, walk_curves
 from geocontact.analyses.prosthesis.walk.steps import read
 from geocontact.below_knee_prosthesis.both_sides.walk import WholeMotion
+from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.leg import MIDDLE
 from geocontact.identify.signals.agreement import Agreement
 from tests.analyses.prosthesis.walk_trial import known_walk
@@ -55,6 +58,19 @@ def test_names_of_a_left_prosthesis_change_sides() -> None:
     names = ("pelvis_tilt", "hip_flexion_r", "ankle_flexion_l", "keel_1_r")
     assert names_of_side(names, "left") == ("pelvis_tilt", "hip_flexion_l", "ankle_flexion_r", "keel_1_l")
     assert names_of_side(names, "right") == names
+
+
+def test_coordinates_are_spoken_and_forces_have_their_unit_on_the_page() -> None:
+    assert spoken("hip_flexion_r") == "hip flexion, right" and spoken("pelvis_tilt") == "pelvis tilt"
+    time = np.arange(3.0)
+    plate = PlateStance(time, np.zeros((3, 3)), np.zeros((3, 3)))
+    names = ("hip_flexion_r", "hip_flexion_l", "hip_rotation_l", "ankle_flexion_l", "ankle_inversion_l")
+    sheet = walk_curves(time, np.zeros((3, 3)), plate, 700.0, dict.fromkeys(names, time))
+    labels = {panel.title: [curve.name for curve in panel.curves] for panel in sheet.panels}
+    assert labels["Moment: hip flexion"] == ["right", "left"]
+    assert labels["Moment: ankle"] == ["flexion, left", "inversion, left"]
+    errors = pd.DataFrame({"quantity": ["vertical", "cop_x"], "unit": ["-", "m"], "rmse": [0.1, 0.01]})
+    assert list(in_body_weight(errors)["unit"]) == ["BW", "m"] and list(errors["unit"]) == ["-", "m"]
 
 
 def test_residuals_on_the_pelvis_of_a_left_prosthesis_are_those_of_the_laboratory() -> None:

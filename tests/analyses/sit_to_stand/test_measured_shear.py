@@ -12,7 +12,8 @@ import pytest
 import geocontact as gc
 from benchmarks.standing.shear import MESHES, PLANTED, read_sto, shear_of, write_study
 from geocontact.analyses.sit_to_stand.compare.result import nearer_than_both
-from geocontact.analyses.sit_to_stand.standing_trials import site_shear, standing_trials
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.trial_recordings import site_shear
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.prediction import ALL
 from geocontact.standing_up.strap import strap_force

@@ -70,7 +70,7 @@ def test_three_movements_are_cut_and_a_study_reads_the_cut(tmp_path: Path) -> No
     assert made.code == 0, made.err
     table = made.table("movements.csv")
     assert list(table["movement"]) == ["standing up 1", "sitting down 1", "standing up 2"]
-    assert (table["chair agrees"] == "yes").all() and "3 movements: standing up 2, sitting down 1" in made.out
+    assert (table["chair agrees"] == "yes").all() and "3 movements: 2 standing up, 1 sitting down" in made.out
     first, second = table.loc[0], table.loc[2]
     for column in ("start [s]", "seat-off or contact [s]"):
         assert second[column] - first[column] == pytest.approx(again, abs=0.03)

@@ -10,7 +10,8 @@ import pytest
 
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
-from geocontact.analyses.sit_to_stand.standing_trials import standing_trials, strap_force
+from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.analyses.sit_to_stand.trial_recordings import strap_force
 from geocontact.io.recordings.standing_study import read_standing_study
 from tests.cli.calls import MESHES
 from tests.recording import opened

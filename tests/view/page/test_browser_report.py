@@ -87,7 +87,7 @@ def test_hostile_file_names_stay_text(opened: Open, tmp_path: Path, first: int) 
         pytest.skip(f"no file system for this name: {error.strerror}")
     motion = poses(tmp_path, (0, 20, 0))
     undrawn = mock.patch("geocontact.analyses.frame.pages.save_both", return_value=b"")
-    with mock.patch("geocontact.analyses.area.result.area_figure"), undrawn:
+    with mock.patch("geocontact.analyses.area.motion_outputs.area_figure"), undrawn:
         result = done(
             area(tmp_path / "out", moving=tmp_path / moving, fixed=tmp_path / fixed, motion=motion, picture=True)
         )

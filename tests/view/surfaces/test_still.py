@@ -16,7 +16,7 @@ from PIL import Image
 from geocontact.view.surfaces import child, render, still
 from geocontact.view.surfaces.camera import Shot, View
 from geocontact.view.surfaces.child import Probe
-from geocontact.view.surfaces.legend import known_up_to
+from geocontact.view.surfaces.legend import annotate, known_up_to
 from geocontact.view.surfaces.painter import paint
 from geocontact.view.surfaces.scene import ContactScene
 from geocontact.view.surfaces.still import draw_stills
@@ -161,6 +161,24 @@ def test_stills_by_pyvista(rendering: None, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals end processes on POSIX only")
+def test_a_long_title_stays_inside_the_picture() -> None:
+    """Names of files with dollar signs too, which would start a formula; nothing of them is lost."""
+    shown = scene()
+    figure = Figure(figsize=(8.0, 6.4), layout="constrained")
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    still._frame(axes, shot_of(shown))
+    title = "MOVING femoral_component_right_coarse.stl on FIXED $a$_insert_right_coarse.stl, run 12, " + "x" * 40
+    annotate(figure, axes, shown, SUPERIOR, shot_of(shown), title)
+    figure.set_dpi(200)
+    canvas.draw()
+    (above,) = (each for each in figure.texts if each.get_text().startswith("MOVING"))
+    drawn, whole, below = above.get_window_extent(), figure.bbox, axes.get_window_extent()
+    assert drawn.x0 >= whole.x0 and drawn.x1 <= whole.x1 and below.y1 <= drawn.y0 < drawn.y1 <= whole.y1 - 2.0
+    written = above.get_text().replace("\n", " ").replace(r"\$", "$")
+    assert written.startswith(f"{title}, superior, t = ")
+
+
 def test_without_a_driver_matplotlib_draws_and_says_so(without_rendering: None, tmp_path: Path) -> None:
     pytest.importorskip("pyvista")
     note = said_and_drawn(tmp_path, "matplotlib")

@@ -17,11 +17,12 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult, area_table, tables_of
+from geocontact.analyses.area.motion_outputs import figure_of, page_of, pressure_figure_of
 from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, read
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.area.pairs.show import pair_curves, thinned_page
 from geocontact.analyses.area.pairs.totals import body_loads, counted_twice, loads_table, total_area, totals_table
-from geocontact.analyses.area.result import figure_of, over_motion, page_of, pressure_figure_of
+from geocontact.analyses.area.result import over_motion
 from geocontact.analyses.frame.collector import current, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame import places, quantities
 from geocontact.analyses.frame.bodies import (
     check_surfaces,
     chosen_faces,
@@ -153,7 +153,7 @@ def layer_of(fixed: Surface, o: SettleOptions) -> Layer:
         raise InputError("", "`piece`", str(error), "give a longer edge") from error
     thickness = measured_thickness(fixed, pieces.point, pieces.normal, o.thickness, "`thickness`")
     medial = medial_side(o.split, o.side, None)
-    plane = quantities.splitting_plane(o.split, o.unit)
+    plane = places.splitting_plane(o.split, o.unit)
     modulus = confined_modulus(o.modulus, o.poisson)
     return layer_on(fixed, pieces, thickness, modulus, o.foundation, (plane, medial.sign))
 
@@ -195,7 +195,7 @@ def _motion(o: SettleOptions, file: Path) -> Motion:
 def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:
     """Point of MOVING that the load acts at [m]."""
     if o.load_point is not None:
-        return np.asarray(quantities.centre(o.load_point, o.unit, "`load_point`"), float)
+        return np.asarray(places.centre(o.load_point, o.unit, "`load_point`"), float)
     size = float(np.linalg.norm(moving.local[moving.used], axis=1).max())
     away = float(np.linalg.norm(moving.centre))
     if away > FAR * size:

@@ -28,7 +28,7 @@ from geocontact.analyses.motion.joint_angles import joint_angles_table, warn_of_
 from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.prosthesis.quantity_words import ASKED, NAMES
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
-from geocontact.analyses.prosthesis.walk.show import walk_curves, walk_page
+from geocontact.analyses.prosthesis.walk.show import spoken, walk_curves, walk_page
 from geocontact.analyses.prosthesis.walk.steps import MovedLegs, RecordedPerson, moved_legs, read
 from geocontact.below_knee_prosthesis.both_sides.amputee import Amputee
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
@@ -284,7 +284,7 @@ def _summarise(
     largest = max(peaks, key=lambda name: peaks[name].peak)
     proxy = metabolic_proxy(work) / mass
     say(
-        f"largest joint moment {peaks[largest].peak:.0f} N m ({largest.replace('_', ' ')}); metabolic proxy "
+        f"largest joint moment {peaks[largest].peak:.0f} N m ({spoken(largest)}); metabolic proxy "
         f"{proxy:.2f} J/kg over these {walk.time[-1] - walk.time[0]:.2f} s (work of the joints, no measurement)"
     )
     residuals = pelvis_residuals(walk, moved.forces, "right")

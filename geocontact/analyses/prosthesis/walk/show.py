@@ -46,9 +46,32 @@ def walk_curves(
     for joint in ("hip_flexion", "knee_flexion", "ankle"):
         own = {name: column for name, column in moments.items() if name.startswith(joint)}
         panels.append(
-            Curves(f"Moment: {joint.replace('_', ' ')}", "N m", [Curve(name, column) for name, column in own.items()])
+            Curves(
+                f"Moment: {joint.replace('_', ' ')}",
+                "N m",
+                [Curve(_beside(joint, name), column) for name, column in own.items()],
+            )
         )
     return CurveSheet(panels, Course("time", "s", time))
+
+
+def in_body_weight(errors: pd.DataFrame) -> pd.DataFrame:
+    """Errors with the word for what their file has as a share of body weight, without a unit."""
+    return errors.assign(unit=errors["unit"].replace("-", "BW"))
+
+
+SIDES = {"r": "right", "l": "left"}
+
+
+def spoken(name: str) -> str:
+    """A coordinate in words: "hip_flexion_r" as "hip flexion, right"."""
+    words, _, side = name.rpartition("_")
+    return f"{words.replace('_', ' ')}, {SIDES[side]}" if side in SIDES else name.replace("_", " ")
+
+
+def _beside(joint: str, name: str) -> str:
+    """The same in a panel that names the joint: "right", "inversion, left"."""
+    return spoken(name).removeprefix(joint.replace("_", " ")).lstrip(", ")
 
 
 def walk_page(
@@ -67,7 +90,7 @@ def walk_page(
     sections: list[Section] = [
         scene_of(model, [skeleton(model, values[shown])]),
         *curves.at(shown),
-        frame_table("Forces beside the plate", tables["errors"], 3),
+        frame_table("Forces beside the plate", in_body_weight(tables["errors"]), 3),
         frame_table("Moments of the joints", tables["moments"], 3),
         frame_table("Work of the joints", tables["work"], 3),
         INPUTS,
@@ -77,7 +100,7 @@ def walk_page(
     return Page(
         title=title,
         subtitle="Both legs of a person with a below-knee prosthesis, walking",
-        time=time[shown],
+        time=np.round(time[shown], 4),  # steps of an integrator have digits without end
         time_label="time [s]",
         headline=headline(sentences, most=2),
         facts=[],

@@ -15,7 +15,7 @@ from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
-from geocontact.analyses.sit_to_stand.standing_trials import FEWEST, require_one_clock
+from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.joint import JointModel

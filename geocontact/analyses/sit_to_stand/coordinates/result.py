@@ -5,7 +5,7 @@
 >>> plates = {"plates": body + "plates.mot", "feet": "right_force,left_force", "chair": "chair_force"}
 >>> result = gc.sit_to_stand.coordinates(body + "ik.mot", model=body + "body.osim", **plates)
 >>> print(result.sentences[0])
-181 frames, both legs about their mean: segments are out of the plane by 0.0° (RMS …
+181 frames, both legs about their mean: segments are out of the plane by 0.0° RMS …
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
 from geocontact.analyses.sit_to_stand.coordinates.read import PlanarRecording, read
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import FEWEST
+from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.opensim.storage_writer import write_storage
@@ -131,7 +131,8 @@ class StandingCoordinatesResult(Result):
         """Curves and tables."""
         sheet = self.curves()["coordinates"]
         sections: list[Section] = [replace(panel, over=sheet.over) for panel in sheet.panels]
-        sections.append(frame_table("Deviations from the plane, and of the legs", self.table("deviations"), 3))
+        deviations = self.table("deviations").round(6)  # rounding errors of angles as nothing
+        sections.append(frame_table("Deviations from the plane, and of the legs", deviations, 3))
         sections.append(frame_table("Segments", self.table("segments"), 3))
         titles = "Planar coordinates of a whole body", str(self.options.motion.name)
         return {REPORT: motion_page(titles, self.sentences, sections, MEANT)}
@@ -228,11 +229,11 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     turning = apart[apart["unit"] == "deg"]
     whose = "both legs about their mean" if o.leg == "both" else f"the {o.leg} leg"
     say(
-        f"{counted(len(given.time), 'frame')}, {whose}: segments are out of the plane by {out['rms'].max():.1f}° (RMS "
-        f"of the one that is most) and {out['largest'].max():.1f}° at most"
+        f"{counted(len(given.time), 'frame')}, {whose}: segments are out of the plane by {out['rms'].max():.1f}° RMS "
+        f"(the worst of them), {out['largest'].max():.1f}° at most"
     )
     if len(turning):
-        say(f"right and left differ by {turning['rms'].max():.1f}° and {turning['largest'].max():.1f}° at most")
+        say(f"right and left differ by {turning['rms'].max():.1f}° RMS, {turning['largest'].max():.1f}° at most")
     if out["rms"].max() > FAR_OUT:
         worst = out["of"].iloc[int(out["rms"].argmax())]
         reserve(f"{worst} is out of the plane by {out['rms'].max():.0f}° (RMS): a planar chain shortens it")

@@ -4,7 +4,7 @@
 >>> recording = "meshes/standing_up_exoskeleton/T1_"
 >>> chair = {"plates": recording + "plates.mot", "chair": "chair_force"}
 >>> print(gc.sit_to_stand.movements(recording + "coordinates.sto", **chair))
-1 movement: standing up 1
+1 movement: 1 standing up
 standing up 1: 0.3… to …
 """
 
@@ -27,7 +27,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.standing_trials import chair_force, doubt_knee, motion_of_file, require_one_clock
+from geocontact.analyses.sit_to_stand.trial_recordings import chair_force, doubt_knee, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
@@ -192,7 +192,7 @@ def run(given: StandingRecording, o: StandingMovementsOptions) -> StandingMoveme
         raise InputError(o.coordinates, "", what, "check the angles' unit, and that it is the whole recording")
     named = numbered(found)
     counts = Counter(one.kind for one in found)
-    say(f"{counted(len(found), 'movement')}: {', '.join(f'{kind} {count}' for kind, count in counts.items())}")
+    say(f"{counted(len(found), 'movement')}: {', '.join(f'{count} {kind}' for kind, count in counts.items())}")
     for name, one in named:
         also = "" if np.isnan(one.contact) else f", {_event(one)} at {one.contact:.2f} s"
         say(f"{name}: {one.start:.2f} to {one.end:.2f} s{also}")
