@@ -1,0 +1,254 @@
+"""The clean regime of a base model: the cells of phase, state and rate where it holds, and its parameters there.
+
+Every channel is cut into cells: parts of the trial, quarters of the range of the input that the channel follows most
+closely, on the way up and on the way down. With S the sum over a cell of whitened residuals (noise as stated,
+trial-to-trial variation) and n its samples, of the calibration trials and of those that were left out,
+
+    z = S / (λ √n),   λ² = mean over cells of (S_c/n_c - S_o/n_o)² / (1/n_c + 1/n_o),
+
+where λ, of each channel, is pure error: what both sets of trials have alike drops out of the differences, slow noise
+and what trials differ by do not (lack of fit against pure error, Fisher 1922). A cell has *structure* where both z have
+one sign and are large. Where nothing is missing both are at least T in the same sense with
+
+    p = 2 P(t > T)²,   T = min(|z_c|, |z_o|),
+
+t of Student's distribution with as many degrees of freedom as cells: one set of trials alone makes no structure.
+
+The clean regime is all cells without structure. Base parameters refitted there are not bent by what is missing
+elsewhere (least trimmed squares by concentration steps, Rousseeuw & Van Driessen 2006, Data Min. Knowl. Discov. 12:29,
+over cells in place of samples; for grey-box models: Wang 2026, arXiv 2606.23215). What only cells with structure
+identify stays identified: half of them come back, the least structure first, until no standard deviation of a
+parameter is more than twice that of all samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.linalg import cholesky, solve_triangular
+from scipy.stats import t
+
+from geocontact.gap.case.problem import Noise, Problem
+from geocontact.gap.case.refit import Refit, at, refit
+from geocontact.gap.case.whitening import Whitening
+from geocontact.gap.levels import FEW, PHASES, TWOFOLD
+from geocontact.gap.reduction.repeats import axes_of
+from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.held_out_rules import whitened_samples
+from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
+from geocontact.identify.noise.covariance import Whitener
+
+SHAPE = (FEW, FEW, 2)
+"""Cells of a channel: parts of the phase, quarters of a state, down and up."""
+Cells = Bool[np.ndarray, "c k"]
+
+
+@dataclass(frozen=True, eq=False)
+class CellGrid:
+    """Cell of each sample of each trial by channel, calibration trials first.
+
+    Parameters
+    ----------
+    which
+        Number of the cell, -1 where nothing was measured or the cell has too few samples.
+    inputs
+        Input that each channel follows, "" where it follows none.
+    fitted
+        How many of the trials are calibration trials.
+    """
+
+    which: tuple[Int[np.ndarray, "_ c"], ...]
+    inputs: tuple[str, ...]
+    fitted: int
+
+    @classmethod
+    def of(cls, problem: Problem, base: Refit) -> CellGrid:
+        """Cells of a case; `base` is the base model on all trials."""
+        trials, system, present = problem.recorded.trials, problem.system, problem.recorded.present
+        axes = axes_of(trials, system)
+        part = [p * FEW // PHASES for p in axes.pop("phase")]
+        predicted = [y - r for y, r in zip(problem.recorded.outputs, base.residuals, strict=True)]
+        inputs = tuple(followed([y[:, c] for y in predicted], axes) for c in range(len(system.outputs)))
+        which = []
+        for i, (own, there) in enumerate(zip(part, present, strict=True)):
+            state = [axes[name][i] if name else np.zeros(len(own), int) for name in inputs]
+            place = own[:, None] * SHAPE[1] * SHAPE[2] + np.stack(state, axis=1)
+            which.append(np.where(there, place, -1))
+        fitted = len(problem.calibration.trials)
+        enough = (np.array([counts_of(which[:fitted]), counts_of(which[fitted:])]) >= FEW).all(axis=0)
+        channels = np.arange(len(inputs))
+        kept = tuple(np.where((w >= 0) & enough[channels, np.maximum(w, 0)], w, -1) for w in which)
+        return cls(kept, inputs, fitted)
+
+    @property
+    def tested(self) -> Cells:
+        """Cells with enough samples."""
+        return np.asarray(counts_of(self.which) > 0)
+
+    def inside(self, cells: Cells) -> list[Bool[np.ndarray, "_ c"]]:
+        """Samples that lie in some cells, per trial."""
+        channels = np.arange(len(cells))
+        return [(w >= 0) & cells[channels, np.maximum(w, 0)] for w in self.which]
+
+    def p_values(self, white: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
+        """p of structure in each cell, of whitened residuals in their place; 1 where it is not tested."""
+        sets = (slice(self.fitted), slice(self.fitted, None))
+        sums = np.array([self.sums(white[some], self.which[some]) for some in sets])
+        counts = np.array([counts_of(self.which[some]) for some in sets])
+        found, tested = np.ones(counts.shape[1:]), self.tested
+        for c, there in enumerate(tested):
+            s, n = sums[:, c, there], counts[:, c, there]
+            off = (s[0] / n[0] - s[1] / n[1]) ** 2 / (1.0 / n).sum(axis=0)
+            if there.sum() < 2 or not off.sum() > 0.0:
+                continue
+            z = s / np.sqrt(n * off.mean())
+            least = np.where(z[0] * z[1] > 0.0, np.abs(z).min(axis=0), 0.0)
+            found[c, there] = np.minimum(1.0, 2.0 * t.sf(least, there.sum()) ** 2)
+        return found
+
+    @staticmethod
+    def sums(
+        values: Sequence[Float[np.ndarray, "_ c"]], which: Sequence[Int[np.ndarray, "_ c"]]
+    ) -> Float[np.ndarray, "c k"]:
+        """Sums of values over cells."""
+        found = np.zeros((which[0].shape[1], int(np.prod(SHAPE))))
+        for own, cells in zip(values, which, strict=True):
+            for c, (column, at) in enumerate(zip(own.T, cells.T, strict=True)):
+                found[c] += np.bincount(at[at >= 0], column[at >= 0], found.shape[1])
+        return found
+
+
+def counts_of(which: Sequence[Int[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
+    """Samples in each cell."""
+    return CellGrid.sums([np.ones(w.shape) for w in which], which)
+
+
+def followed(predicted: Sequence[Float[np.ndarray, " _"]], axes: Mapping[str, Sequence[Int[np.ndarray, " _"]]]) -> str:
+    """The input whose quarters, up and down, leave least of a prediction's variance within them; "" without inputs."""
+    values = np.concatenate(predicted)
+    there = np.isfinite(values)
+    left = {}
+    for name, which in axes.items():
+        bins, own = np.concatenate(which)[there], values[there]
+        mean = np.bincount(bins, own) / np.maximum(np.bincount(bins), 1)
+        left[name] = float(((own - mean[bins]) ** 2).sum())
+    return min(left, key=lambda name: left[name], default="")
+
+
+@dataclass(frozen=True, eq=False)
+class CleanRegime:
+    """The base model fitted where it holds.
+
+    Parameters
+    ----------
+    grid
+        Cells.
+    model
+        Base model with parameters from the clean cells of the calibration trials, on all trials.
+    left_out
+        Cells that the parameters are not from.
+    p_values
+        Of structure that this model does not have.
+    """
+
+    grid: CellGrid
+    model: Refit
+    left_out: Cells
+    p_values: Float[np.ndarray, "c k"]
+
+    @property
+    def q_values(self) -> Float[np.ndarray, "c k"]:
+        """Least false-discovery rate at which each cell is found; 1 where it is not tested."""
+        found, tested = np.ones(self.p_values.shape), self.grid.tested
+        found[tested] = benjamini_yekutieli(self.p_values[tested])
+        return found
+
+
+def benjamini_yekutieli(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
+    """q-values under any dependence: least over k ≥ j of p_(k) m (1 + 1/2 + … + 1/m) / k.
+
+    Source: Benjamini & Yekutieli 2001, Ann. Stat. 29:1165.
+    """
+    rank = np.arange(1, len(p) + 1)
+    order = np.argsort(p)
+    scaled = p[order] * len(p) * (1.0 / rank).sum() / rank
+    q = np.empty(len(p))
+    q[order] = np.minimum(1.0, np.minimum.accumulate(scaled[::-1])[::-1])
+    return q
+
+
+STEPS = 2  # that the clean regime and the parameters are found in turn
+
+
+def clean_regime(problem: Problem, base: Judged) -> CleanRegime:
+    """The base model where it holds, from its fit to everything on."""
+    noise = problem.with_lower_noise(base.noise)
+    grid, model = CellGrid.of(problem, base.model), base.model
+    left_out = np.zeros(grid.tested.shape, bool)
+    p_values = structure(problem, grid, model, noise)
+    for _ in range(STEPS):
+        wanted = p_values <= 1.0 - CONFIDENCE
+        if (wanted == left_out).all():
+            break
+        left_out, whitenings = _identified(problem, grid, model, noise, wanted, p_values)
+        values = refit(problem.system, problem.calibration, whitenings, [model.values]).values
+        model = on_all_trials(problem, values)
+        p_values = structure(problem, grid, model, noise)
+    return CleanRegime(grid, model, left_out, p_values)
+
+
+def on_all_trials(problem: Problem, values: Mapping[str, float]) -> Refit:
+    """The base model at given values, nothing fitted."""
+    first, then = (at(problem.system, some, None, values) for some in (problem.calibration, problem.evaluation))
+    return Refit.bare(problem.system, values, first.residuals + then.residuals, first.jacobian + then.jacobian)
+
+
+def structure(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> Float[np.ndarray, "c k"]:
+    """p of structure that a base model, evaluated on all trials, leaves in each cell, whitened by a noise."""
+    return grid.p_values(whitened_samples(problem.whitenings(noise, model), noise, model.residuals))
+
+
+def _identified(
+    problem: Problem, grid: CellGrid, model: Refit, noise: Noise, wanted: Cells, p_values: Float[np.ndarray, "c k"]
+) -> tuple[Cells, list[Whitening]]:
+    """Cells to leave out such that parameters stay identified, and what weighs the rest of the calibration trials."""
+    spread = prior_spread(problem.system, model.values)
+    varied = [each * noise.varies for each in problem.varied(model.jacobian)]
+
+    def without(cells: Cells) -> list[Whitening]:
+        rows = zip(noise.whiteners, grid.inside(cells), varied, strict=True)
+        return [Whitening.of(some_rows(w, ~there), own) for w, there, own in [*rows][: grid.fitted]]
+
+    def unsure(whitenings: Sequence[Whitening]) -> Float[np.ndarray, " p"]:
+        white = np.concatenate([w(j) for w, j in zip(whitenings, model.jacobian, strict=False)]) * spread
+        return np.asarray(np.sqrt(np.diag(np.linalg.inv(np.eye(len(spread)) + white.T @ white))))
+
+    cells = np.zeros_like(wanted)
+    whole = without(cells)
+    limit = np.exp(TWOFOLD) * unsure(whole)
+    order = sorted(zip(*np.nonzero(wanted), strict=True), key=lambda cell: p_values[cell])
+    while order:
+        cells = np.zeros_like(wanted)
+        cells[tuple(np.transpose(order))] = True
+        whitenings = without(cells)
+        if (unsure(whitenings) <= limit).all():
+            return cells, whitenings
+        order = order[: len(order) // 2]
+    return np.zeros_like(wanted), whole
+
+
+def some_rows(whitener: Whitener, kept: Bool[np.ndarray, "t c"]) -> Whitener:
+    """What whitens some of the samples of a trial: their covariance alone, factorised anew."""
+    rows, factors = [], []
+    for own, factor in zip(whitener.rows, whitener.factors, strict=True):
+        there = kept.ravel()[own]
+        if not there.all():
+            half = solve_triangular(factor, np.eye(len(own)), lower=True)[there]
+            factor = solve_triangular(cholesky(half @ half.T, lower=True), np.eye(len(half)), lower=True)
+        rows.append(own[there])
+        factors.append(factor)
+    scale = -sum(float(np.log(np.diag(factor)).sum()) for factor in factors)
+    return replace(whitener, rows=tuple(rows), factors=tuple(factors), log_scale=scale)
