@@ -18,7 +18,7 @@ The clean regime is all cells without structure. Base parameters refitted there 
 elsewhere (least trimmed squares by concentration steps, Rousseeuw & Van Driessen 2006, Data Min. Knowl. Discov. 12:29,
 over cells in place of samples; for grey-box models: Wang 2026, arXiv 2606.23215). What only cells with structure
 identify stays identified: half of them come back, the least structure first, until no standard deviation of a
-parameter is more than twice that of all samples.
+parameter is more than twice that of all samples. Cells and parameters are found in turn, four times at the most.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from scipy.stats import t
 from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import Refit, at, refit
 from geocontact.gap.case.whitening import Whitening
-from geocontact.gap.levels import FEW, PHASES, TWOFOLD
+from geocontact.gap.levels import FEW, PHASES, TURNS, TWOFOLD
 from geocontact.gap.reduction.repeats import axes_of
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.held_out_rules import whitened_samples
@@ -116,8 +116,8 @@ class CellGrid:
         """Sums of values over cells."""
         found = np.zeros((which[0].shape[1], int(np.prod(SHAPE))))
         for own, cells in zip(values, which, strict=True):
-            for c, (column, at) in enumerate(zip(own.T, cells.T, strict=True)):
-                found[c] += np.bincount(at[at >= 0], column[at >= 0], found.shape[1])
+            for c, (column, cell) in enumerate(zip(own.T, cells.T, strict=True)):
+                found[c] += np.bincount(cell[cell >= 0], column[cell >= 0], found.shape[1])
         return found
 
 
@@ -180,16 +180,13 @@ def benjamini_yekutieli(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
     return q
 
 
-STEPS = 2  # that the clean regime and the parameters are found in turn
-
-
 def clean_regime(problem: Problem, base: Judged) -> CleanRegime:
     """The base model where it holds, from its fit to everything on."""
     noise = problem.with_lower_noise(base.noise)
     grid, model = CellGrid.of(problem, base.model), base.model
     left_out = np.zeros(grid.tested.shape, bool)
     p_values = structure(problem, grid, model, noise)
-    for _ in range(STEPS):
+    for _ in range(TURNS):
         wanted = p_values <= 1.0 - CONFIDENCE
         if (wanted == left_out).all():
             break
