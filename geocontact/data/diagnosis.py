@@ -325,7 +325,7 @@ class Diagnosis:
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
     enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
     `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not;
-    `unmodelled` what no effect is, in words; `regions` where the base model, fitted where it holds, misses something.
+    `unmodelled` what no effect is, in words; `regions` where the base model misses something.
     """
 
     case: str

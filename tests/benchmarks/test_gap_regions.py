@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.gap.clean_regime import some_rows
 from benchmarks.gap.regions import (
     EFFECTS,
     FITS,
@@ -21,6 +22,7 @@ from benchmarks.gap.regions import (
     figures,
     true_cells,
 )
+from geocontact.identify.noise.covariance import Whitener
 from tests.elsewhere import Elsewhere
 
 RESULTS = Path(__file__).resolve().parents[2] / "benchmarks" / "results" / "gap_regions.json"
@@ -61,11 +63,28 @@ def test_what_is_written_is_what_its_cases_make() -> None:
     assert set(again) == {"none", "one", "two", "laboratories"}
 
 
+def test_some_rows_are_whitened_by_their_own_covariance() -> None:
+    rng = np.random.default_rng(4)
+    half = rng.standard_normal((6, 6))
+    covariance = half @ half.T + np.eye(6)
+    factor = np.linalg.inv(np.linalg.cholesky(covariance))
+    whole = Whitener((np.arange(6), np.arange(6, 9)), (factor, np.eye(3)), 0.0)
+    kept = np.array([True, False, True, True, False, True, True, True, False])[:, None]
+    some, values = some_rows(whole, kept), rng.standard_normal((9, 1, 1))
+    own = np.flatnonzero(kept[:6, 0])
+    expected = np.linalg.inv(np.linalg.cholesky(covariance[np.ix_(own, own)])) @ values[own, 0]
+    assert some(values) == pytest.approx(np.concatenate([expected, values[6:8, 0]]))
+    nothing = some_rows(whole, np.zeros((9, 1), bool))
+    assert nothing(values).shape == (0, 1)
+
+
 @pytest.mark.slow
-def test_a_stop_bends_the_stiffness_of_everything_and_less_that_of_the_clean_regime(elsewhere: Elsewhere) -> None:
+def test_a_load_is_found_where_it_acts_and_nothing_where_nothing_does(elsewhere: Elsewhere) -> None:
     from benchmarks.gap.regions import of_joint
 
-    found = elsewhere(of_joint, ("stop",), 0)
-    assert found["bias"]["clean"] < 0.5 * found["bias"]["everything"]
-    assert found["clean"]["right"] > found["clean"]["missed"] + found["clean"]["too_many"]
+    found = elsewhere(of_joint, ("load",), 0)
+    assert found["everything"]["right"] >= 7
+    assert found["everything"]["missed"] <= 1
     assert tuple(found["bias"]) == FITS
+    nothing = elsewhere(of_joint, (), 0)
+    assert nothing["everything"] == nothing["clean"] == {"right": 0, "too_many": 0, "missed": 0}

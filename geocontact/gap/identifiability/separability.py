@@ -74,7 +74,8 @@ def one_law(found: Attribution) -> OneLaw:
     told: dict[str, float] = {}
     places: dict[str, list[str]] = {name: [name] for name in said.effects or said.chosen.names}
     for names, model in models.items():
-        told |= {name: max(apart[first, names], apart[names, first]) for name in sorted(names - first)}
+        for name in sorted(names - first):  # of several models with an effect that counts which is closest
+            told[name] = min(max(apart[first, names], apart[names, first]), told.get(name, np.inf))
         if model.name in alike and len(names - first) == len(first - names) == 1:
             (own,), (other,) = first - names, names - first
             places[own].append(other)

@@ -1,6 +1,6 @@
 """Regions of phase, state and rate in which the base model misses what all trials have.
 
-Of all cells of all channels (`gap.localise.clean_regime`) those are found whose false-discovery rate, whatever their
+Of all cells of all channels (`gap.localise.structure`) those are found whose false-discovery rate, whatever their
 dependence, is below one in twenty. Found cells of a channel that touch, in the phase, in the state or at the turn of
 its direction, are one region. It says where something is missing and how much of the error lies there; it names no
 effect and moves no verdict.
@@ -17,16 +17,16 @@ from scipy.ndimage import label
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.gap_cells import Region
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.localise.clean_regime import SHAPE, Cells, CleanRegime, clean_regime
+from geocontact.gap.localise.structure import SHAPE, Cells, Structure
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
 
 
 def regions(problem: Problem, base: Judged) -> tuple[Region, ...]:
-    """Where the base model, fitted where it holds, misses something; the largest share first."""
-    regime = clean_regime(problem, base)
-    found = regime.q_values <= 1.0 - CONFIDENCE
-    each = (region_of(problem, regime, c, cells) for c in range(len(found)) for cells in touching(found[c]))
+    """Where the base model misses something; the largest share first."""
+    left = Structure.of(problem, base)
+    found = left.q_values <= 1.0 - CONFIDENCE
+    each = (region_of(problem, left, c, cells) for c in range(len(found)) for cells in touching(found[c]))
     return tuple(sorted(each, key=lambda one: -one.share))
 
 
@@ -37,13 +37,13 @@ def touching(cells: Bool[np.ndarray, " k"]) -> Iterator[Bool[np.ndarray, " k"]]:
         yield (numbers == k).ravel()
 
 
-def region_of(problem: Problem, regime: CleanRegime, c: int, cells: Bool[np.ndarray, " k"]) -> Region:
+def region_of(problem: Problem, left: Structure, c: int, cells: Bool[np.ndarray, " k"]) -> Region:
     """What is missed of channel `c` in some cells."""
-    name, followed = problem.system.outputs[c], regime.grid.inputs[c]
-    only: Cells = np.zeros_like(regime.left_out)
+    name, followed = problem.system.outputs[c], left.grid.inputs[c]
+    only: Cells = np.zeros(left.p_values.shape, bool)
     only[c] = cells
-    inside = [there[:, c] for there in regime.grid.inside(only)]
-    residuals = [r[:, c] for r in regime.model.residuals]
+    inside = [there[:, c] for there in left.grid.inside(only)]
+    residuals = [r[:, c] for r in left.model.residuals]
     own = np.concatenate([r[there] for r, there in zip(residuals, inside, strict=True)])
     whole = sum(float((r**2).sum()) for r in residuals)
     parts, _, ways = np.nonzero(cells.reshape(SHAPE))
@@ -57,7 +57,7 @@ def region_of(problem: Problem, regime: CleanRegime, c: int, cells: Bool[np.ndar
         way=way,
         mean=float(own.mean()),
         share=float((own**2).sum()) / max(whole, 1e-300),
-        q_value=float(regime.q_values[c][cells].min()),
+        q_value=float(left.q_values[c][cells].min()),
         units=(problem.system.unit(name), problem.system.unit(followed) if followed else ""),
     )
 

@@ -14,7 +14,7 @@ from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.analyses.gap.nats import ODDS, ahead_words
 from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, Region
 from geocontact.gap.diagnose import Findings
-from geocontact.gap.localise.clean_regime import SHAPE
+from geocontact.gap.localise.structure import SHAPE
 from geocontact.view.curves.gap_map import ENERGIES, MARKS, SIGNIFICANT, WIDE, edge_text
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.sheet import number
@@ -33,8 +33,8 @@ MAP = (
     "many samples. All trials, base model."
 )
 REGIONS = (
-    " Regions are cells of phase, state and rate that touch; the base model is fitted outside of them, and of what is "
-    "found one in twenty at most is chance (false-discovery rate)."
+    " Regions are cells of phase, state and rate that touch; of those that are found one in twenty at most is chance "
+    "(false-discovery rate). Beside a strong gap they reach beyond its place."
 )
 REDUCTIONS = (
     "Root mean square error on trials that no parameter was fitted to. The whisker is the 95 % interval of the error "

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import t
 
-from geocontact.gap.localise.clean_regime import SHAPE, CellGrid, benjamini_yekutieli, followed, some_rows
 from geocontact.gap.localise.regions import touching
-from geocontact.identify.noise.covariance import Whitener
+from geocontact.gap.localise.structure import SHAPE, CellGrid, benjamini_yekutieli, followed
 
 CELLS, FITTED, TRIALS, N = int(np.prod(SHAPE)), 3, 5, 640
 
@@ -74,21 +73,6 @@ def test_q_values_are_those_of_the_step_up_rule_by_hand() -> None:
         limit = np.sort(p)[max(able) - 1] if able else -1.0
         assert np.array_equal(q <= level, p <= limit), level
     assert benjamini_yekutieli(np.array([0.9, 1.0])).max() == 1.0
-
-
-def test_some_rows_are_whitened_by_their_own_covariance() -> None:
-    rng = np.random.default_rng(4)
-    half = rng.standard_normal((6, 6))
-    covariance = half @ half.T + np.eye(6)
-    factor = np.linalg.inv(np.linalg.cholesky(covariance))
-    whole = Whitener((np.arange(6), np.arange(6, 9)), (factor, np.eye(3)), 0.0)
-    kept = np.array([True, False, True, True, False, True, True, True, False])[:, None]
-    some, values = some_rows(whole, kept), rng.standard_normal((9, 1, 1))
-    own = np.flatnonzero(kept[:6, 0])
-    expected = np.linalg.inv(np.linalg.cholesky(covariance[np.ix_(own, own)])) @ values[own, 0]
-    assert some(values) == pytest.approx(np.concatenate([expected, values[6:8, 0]]))
-    nothing = some_rows(whole, np.zeros((9, 1), bool))
-    assert nothing(values).shape == (0, 1)
 
 
 def test_a_channel_follows_the_input_that_it_is_a_function_of() -> None:

@@ -1,4 +1,4 @@
-"""The clean regime of a base model: the cells of phase, state and rate where it holds, and its parameters there.
+"""Cells of phase, state and rate in which a base model misses what calibration and held-out trials have alike.
 
 Every channel is cut into cells: parts of the trial, quarters of the range of the input that the channel follows most
 closely, on the way up and on the way down. With S the sum over a cell of whitened residuals (noise as stated,
@@ -14,32 +14,25 @@ one sign and are large. Where nothing is missing both are at least T in the same
 
 t of Student's distribution with as many degrees of freedom as cells: one set of trials alone makes no structure.
 
-The clean regime is all cells without structure. Base parameters refitted there are not bent by what is missing
-elsewhere (least trimmed squares by concentration steps, Rousseeuw & Van Driessen 2006, Data Min. Knowl. Discov. 12:29,
-over cells in place of samples; for grey-box models: Wang 2026, arXiv 2606.23215). What only cells with structure
-identify stays identified: half of them come back, the least structure first, until no standard deviation of a
-parameter is more than twice that of all samples. Cells and parameters are found in turn, four times at the most.
+A base model that is fitted to everything spreads what a part of the movement misses over other parts, and so does the
+variation between trials that residuals are whitened by; cells beside a strong effect are then found in vain.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.linalg import cholesky, solve_triangular
 from scipy.stats import t
 
 from geocontact.gap.case.problem import Noise, Problem
-from geocontact.gap.case.refit import Refit, at, refit
-from geocontact.gap.case.whitening import Whitening
-from geocontact.gap.levels import FEW, PHASES, TURNS, TWOFOLD
+from geocontact.gap.case.refit import Refit
+from geocontact.gap.levels import FEW, PHASES
 from geocontact.gap.reduction.repeats import axes_of
-from geocontact.gap.selection.evidence import Judged, prior_spread
+from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.held_out_rules import whitened_samples
-from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
-from geocontact.identify.noise.covariance import Whitener
 
 SHAPE = (FEW, FEW, 2)
 """Cells of a channel: parts of the phase, quarters of a state, down and up."""
@@ -139,25 +132,18 @@ def followed(predicted: Sequence[Float[np.ndarray, " _"]], axes: Mapping[str, Se
 
 
 @dataclass(frozen=True, eq=False)
-class CleanRegime:
-    """The base model fitted where it holds.
-
-    Parameters
-    ----------
-    grid
-        Cells.
-    model
-        Base model with parameters from the clean cells of the calibration trials, on all trials.
-    left_out
-        Cells that the parameters are not from.
-    p_values
-        Of structure that this model does not have.
-    """
+class Structure:
+    """A base model on all trials, and p of structure that it leaves in each cell."""
 
     grid: CellGrid
     model: Refit
-    left_out: Cells
     p_values: Float[np.ndarray, "c k"]
+
+    @classmethod
+    def of(cls, problem: Problem, base: Judged) -> Structure:
+        """What a base model leaves, under noise no higher than stated."""
+        grid, noise = CellGrid.of(problem, base.model), problem.with_lower_noise(base.noise)
+        return cls(grid, base.model, structure(problem, grid, base.model, noise))
 
     @property
     def q_values(self) -> Float[np.ndarray, "c k"]:
@@ -180,72 +166,6 @@ def benjamini_yekutieli(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
     return q
 
 
-def clean_regime(problem: Problem, base: Judged) -> CleanRegime:
-    """The base model where it holds, from its fit to everything on."""
-    noise = problem.with_lower_noise(base.noise)
-    grid, model = CellGrid.of(problem, base.model), base.model
-    left_out = np.zeros(grid.tested.shape, bool)
-    p_values = structure(problem, grid, model, noise)
-    for _ in range(TURNS):
-        wanted = p_values <= 1.0 - CONFIDENCE
-        if (wanted == left_out).all():
-            break
-        left_out, whitenings = _identified(problem, grid, model, noise, wanted, p_values)
-        values = refit(problem.system, problem.calibration, whitenings, [model.values]).values
-        model = on_all_trials(problem, values)
-        p_values = structure(problem, grid, model, noise)
-    return CleanRegime(grid, model, left_out, p_values)
-
-
-def on_all_trials(problem: Problem, values: Mapping[str, float]) -> Refit:
-    """The base model at given values, nothing fitted."""
-    first, then = (at(problem.system, some, None, values) for some in (problem.calibration, problem.evaluation))
-    return Refit.bare(problem.system, values, first.residuals + then.residuals, first.jacobian + then.jacobian)
-
-
 def structure(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> Float[np.ndarray, "c k"]:
     """p of structure that a base model, evaluated on all trials, leaves in each cell, whitened by a noise."""
     return grid.p_values(whitened_samples(problem.whitenings(noise, model), noise, model.residuals))
-
-
-def _identified(
-    problem: Problem, grid: CellGrid, model: Refit, noise: Noise, wanted: Cells, p_values: Float[np.ndarray, "c k"]
-) -> tuple[Cells, list[Whitening]]:
-    """Cells to leave out such that parameters stay identified, and what weighs the rest of the calibration trials."""
-    spread = prior_spread(problem.system, model.values)
-    varied = [each * noise.varies for each in problem.varied(model.jacobian)]
-
-    def without(cells: Cells) -> list[Whitening]:
-        rows = zip(noise.whiteners, grid.inside(cells), varied, strict=True)
-        return [Whitening.of(some_rows(w, ~there), own) for w, there, own in [*rows][: grid.fitted]]
-
-    def unsure(whitenings: Sequence[Whitening]) -> Float[np.ndarray, " p"]:
-        white = np.concatenate([w(j) for w, j in zip(whitenings, model.jacobian, strict=False)]) * spread
-        return np.asarray(np.sqrt(np.diag(np.linalg.inv(np.eye(len(spread)) + white.T @ white))))
-
-    cells = np.zeros_like(wanted)
-    whole = without(cells)
-    limit = np.exp(TWOFOLD) * unsure(whole)
-    order = sorted(zip(*np.nonzero(wanted), strict=True), key=lambda cell: p_values[cell])
-    while order:
-        cells = np.zeros_like(wanted)
-        cells[tuple(np.transpose(order))] = True
-        whitenings = without(cells)
-        if (unsure(whitenings) <= limit).all():
-            return cells, whitenings
-        order = order[: len(order) // 2]
-    return np.zeros_like(wanted), whole
-
-
-def some_rows(whitener: Whitener, kept: Bool[np.ndarray, "t c"]) -> Whitener:
-    """What whitens some of the samples of a trial: their covariance alone, factorised anew."""
-    rows, factors = [], []
-    for own, factor in zip(whitener.rows, whitener.factors, strict=True):
-        there = kept.ravel()[own]
-        if not there.all():
-            half = solve_triangular(factor, np.eye(len(own)), lower=True)[there]
-            factor = solve_triangular(cholesky(half @ half.T, lower=True), np.eye(len(half)), lower=True)
-        rows.append(own[there])
-        factors.append(factor)
-    scale = -sum(float(np.log(np.diag(factor)).sum()) for factor in factors)
-    return replace(whitener, rows=tuple(rows), factors=tuple(factors), log_scale=scale)
