@@ -83,7 +83,7 @@ def one_law(found: Attribution) -> OneLaw:
 
 
 def class_mates(found: Attribution) -> list[Contender]:
-    """Of two effects that are named, the models in which one that is in question stands in place of either.
+    """The models in which, where two effects are named, one that is in question stands in place of either.
 
     Beside a third effect it may be more probable; what it is one law with shows beside the effect that stays.
     """
