@@ -21,7 +21,7 @@ from geocontact.gap.case.problem import Noise, Problem
 from geocontact.gap.case.refit import Refit, at, free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import TURNS, TWOFOLD
-from geocontact.gap.localise.structure import SHAPE, CellGrid, Cells, Structure, counts_of, structure
+from geocontact.gap.localise.structure import SHAPE, Cells, StateCells, Structure, counts_of, structure
 from geocontact.gap.selection.evidence import Judged, prior_spread
 from geocontact.gap.selection.held_out_rules import whitened_samples
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
@@ -35,7 +35,7 @@ def clean_regime(problem: Problem, base: Judged) -> Structure:
     everywhere; of both ends the one counts with structure in fewer cells.
     """
     noise = problem.with_lower_noise(base.noise)
-    grid = CellGrid.of(problem, base.model)
+    grid = StateCells.of(problem, base.model)
     bent = _in_turn(problem, grid, base.model, noise)
     if not (bent.p_values <= 1.0 - CONFIDENCE).any():
         return bent
@@ -44,7 +44,7 @@ def clean_regime(problem: Problem, base: Judged) -> Structure:
     return min(ends, key=lambda one: int((one.p_values <= 1.0 - CONFIDENCE).sum()))
 
 
-def _in_turn(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> Structure:
+def _in_turn(problem: Problem, grid: StateCells, model: Refit, noise: Noise) -> Structure:
     """Cells without structure and parameters from these, in turn."""
     left_out = np.zeros(grid.tested.shape, bool)
     p_values = structure(problem, grid, model, noise)
@@ -59,7 +59,7 @@ def _in_turn(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> St
     return Structure(grid, model, p_values)
 
 
-def trimmed(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> dict[str, float]:
+def trimmed(problem: Problem, grid: StateCells, model: Refit, noise: Noise) -> dict[str, float]:
     """Parameters from those cells, with half of the samples of the calibration trials, that one fit suits best.
 
     Least trimmed squares over cells, to first order around a model: searches set out from all cells, and from those of
@@ -115,7 +115,7 @@ def on_all_trials(problem: Problem, values: Mapping[str, float]) -> Refit:
 
 
 def _identified(
-    problem: Problem, grid: CellGrid, model: Refit, noise: Noise, wanted: Cells, p_values: Float[np.ndarray, "c k"]
+    problem: Problem, grid: StateCells, model: Refit, noise: Noise, wanted: Cells, p_values: Float[np.ndarray, "c k"]
 ) -> tuple[Cells, list[Whitening]]:
     """Cells to leave out such that parameters stay identified, and what weighs the rest of the calibration trials."""
     spread = prior_spread(problem.system, model.values)

@@ -7,22 +7,22 @@ import pytest
 from scipy.stats import t
 
 from geocontact.gap.localise.regions import touching
-from geocontact.gap.localise.structure import SHAPE, CellGrid, benjamini_yekutieli, followed
+from geocontact.gap.localise.structure import SHAPE, StateCells, benjamini_yekutieli, followed
 
 CELLS, FITTED, TRIALS, N = int(np.prod(SHAPE)), 3, 5, 640
 
 
-def grid(rng: np.random.Generator) -> CellGrid:
+def grid(rng: np.random.Generator) -> StateCells:
     """One channel, all cells equally often."""
     which = tuple(rng.permutation(np.arange(N) % CELLS)[:, None] for _ in range(TRIALS))
-    return CellGrid(which, ("angle",), FITTED)
+    return StateCells(which, ("angle",), FITTED)
 
 
 def noise(rng: np.random.Generator) -> list[np.ndarray]:
     return [rng.standard_normal((N, 1)) for _ in range(TRIALS)]
 
 
-def by_hand(one: CellGrid, white: list[np.ndarray]) -> np.ndarray:
+def by_hand(one: StateCells, white: list[np.ndarray]) -> np.ndarray:
     """The same p-values, cell by cell."""
     means, counts = np.zeros((2, CELLS)), np.zeros((2, CELLS))
     for s, trials in enumerate((range(FITTED), range(FITTED, TRIALS))):

@@ -40,7 +40,7 @@ Cells = Bool[np.ndarray, "c k"]
 
 
 @dataclass(frozen=True, eq=False)
-class CellGrid:
+class StateCells:
     """Cell of each sample of each trial by channel, calibration trials first.
 
     Parameters
@@ -58,7 +58,7 @@ class CellGrid:
     fitted: int
 
     @classmethod
-    def of(cls, problem: Problem, base: Refit) -> CellGrid:
+    def of(cls, problem: Problem, base: Refit) -> StateCells:
         """Cells of a case; `base` is the base model on all trials."""
         trials, system, present = problem.recorded.trials, problem.system, problem.recorded.present
         axes = axes_of(trials, system)
@@ -116,7 +116,7 @@ class CellGrid:
 
 def counts_of(which: Sequence[Int[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
     """Samples in each cell."""
-    return CellGrid.sums([np.ones(w.shape) for w in which], which)
+    return StateCells.sums([np.ones(w.shape) for w in which], which)
 
 
 def followed(predicted: Sequence[Float[np.ndarray, " _"]], axes: Mapping[str, Sequence[Int[np.ndarray, " _"]]]) -> str:
@@ -135,14 +135,14 @@ def followed(predicted: Sequence[Float[np.ndarray, " _"]], axes: Mapping[str, Se
 class Structure:
     """A base model on all trials, and p of structure that it leaves in each cell."""
 
-    grid: CellGrid
+    grid: StateCells
     model: Refit
     p_values: Float[np.ndarray, "c k"]
 
     @classmethod
     def of(cls, problem: Problem, base: Judged) -> Structure:
         """What a base model leaves, under noise no higher than stated."""
-        grid, noise = CellGrid.of(problem, base.model), problem.with_lower_noise(base.noise)
+        grid, noise = StateCells.of(problem, base.model), problem.with_lower_noise(base.noise)
         return cls(grid, base.model, structure(problem, grid, base.model, noise))
 
     @property
@@ -166,6 +166,6 @@ def benjamini_yekutieli(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
     return q
 
 
-def structure(problem: Problem, grid: CellGrid, model: Refit, noise: Noise) -> Float[np.ndarray, "c k"]:
+def structure(problem: Problem, grid: StateCells, model: Refit, noise: Noise) -> Float[np.ndarray, "c k"]:
     """p of structure that a base model, evaluated on all trials, leaves in each cell, whitened by a noise."""
     return grid.p_values(whitened_samples(problem.whitenings(noise, model), noise, model.residuals))
