@@ -9,6 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.gap_cells import Region
+
 
 @dataclass(frozen=True, eq=False)
 class HeldOut:
@@ -323,7 +325,7 @@ class Diagnosis:
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
     enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
     `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not;
-    `unmodelled` what no effect is, in words.
+    `unmodelled` what no effect is, in words; `regions` where the base model misses something.
     """
 
     case: str
@@ -348,6 +350,7 @@ class Diagnosis:
     budget: Mapping[str, Mapping[str, BudgetPart]] = field(default_factory=dict)
     detected: tuple[Detected, ...] = ()
     unmodelled: tuple[Unmodelled, ...] = ()
+    regions: tuple[Region, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -385,6 +388,7 @@ class Diagnosis:
             },
             "detected": [one.as_dict() for one in self.detected],
             "unmodelled": [one.as_dict() for one in self.unmodelled],
+            "regions": [one.as_dict() for one in self.regions],
             "parameters": {
                 name: {"value": e.value, "ci95": list(e.ci95), "unit": e.unit, "identifiable": e.identifiable}
                 for name, e in self.parameters.items()

@@ -1,9 +1,10 @@
-"""Cells of the map of a gap, and cells of a pressure mat beside the channel that they add up to."""
+"""Cells and regions of the map of a gap, and cells of a pressure mat beside the channel that they add up to."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -42,6 +43,62 @@ class Cell:
     p_value: float
     ci95: tuple[float, float]
     floor: float
+
+
+@dataclass(frozen=True)
+class Region:
+    """A region of phase, state and rate in which a channel's base model misses what all trials have.
+
+    Parameters
+    ----------
+    channel
+        That it is of.
+    phase
+        Parts of the trial between which it lies, 0…1.
+    input, state
+        Input that the channel follows, and between which of its values, SI; "" and zeros where it follows none.
+    way
+        "rising" or "falling" input, "" where both.
+    mean
+        Measured less predicted there [the channel's unit].
+    share
+        Of the channel's squared error, all trials.
+    q_value
+        Least false-discovery rate, over all cells, at which it is found.
+    units
+        Of the channel and of the input.
+    """
+
+    channel: str
+    phase: tuple[float, float]
+    input: str
+    state: tuple[float, float]
+    way: str
+    mean: float
+    share: float
+    q_value: float
+    units: tuple[str, str] = ("", "")
+
+    def as_dict(self) -> dict[str, Any]:
+        """The content of diagnosis.json."""
+        return {
+            "channel": self.channel,
+            "phase": list(self.phase),
+            "input": self.input,
+            "state": list(self.state),
+            "way": self.way,
+            "mean": self.mean,
+            "share": self.share,
+            "q_value": self.q_value,
+        }
+
+    @property
+    def place(self) -> str:
+        """Where it is, in words."""
+        parts = [f"phase {100.0 * self.phase[0]:.0f}–{100.0 * self.phase[1]:.0f} %"]
+        if self.input:
+            parts.append(f"{self.input} {self.state[0]:.3g} to {self.state[1]:.3g} {self.units[1]}")
+        return ", ".join([*parts, *([self.way] if self.way else [])])
 
 
 def shares(parts: Float[np.ndarray, " b"]) -> Float[np.ndarray, " b"]:

@@ -47,6 +47,7 @@ from geocontact.gap.identifiability.separability import one_law
 from geocontact.gap.levels import LEFT_OVER, SURE, WORTH_NAMING
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
+from geocontact.gap.localise.regions import regions
 from geocontact.gap.reduction.error_budget import ChannelBudget, error_budget
 from geocontact.gap.reduction.error_reduction import (
     TrialGain,
@@ -207,6 +208,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
         budget={name: one.parts for name, one in budget.items()},
         detected=detected(found),
         unmodelled=beside,
+        regions=regions(found.clean, found.base.judged),
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)

@@ -47,6 +47,7 @@ KEYS = [
     "budget",
     "detected",
     "unmodelled",
+    "regions",
     "parameters",
 ]
 KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]

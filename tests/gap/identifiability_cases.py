@@ -222,3 +222,13 @@ def laws_of_pair() -> OneLaw:
 
     found = attributed(elbow_case(seed=1, change=both), ("sensor_drift", "time_shift"), ("filter_lag", "damping"))
     return one_law(found)
+
+
+def laws_of_play_and_delay() -> tuple[OneLaw, OneLaw]:
+    """Of a play and a delay, a filter in question; the same where the filter is most probable beside something else."""
+    play = {"dead_zone.width": 0.002, "dead_zone.share": 1.0}
+    case = elbow_case("dead_zone", play, seed=1, change=Late(0.5 * LAG))
+    found = attributed(case, ("dead_zone", "time_shift"), ("filter_lag",))
+    beside = next(one for one in found.contenders if one.names == ("filter_lag", "time_shift"))
+    likely = replace(beside, judged=replace(beside.judged, nats=found.answer.chosen.nats + 1.0))
+    return one_law(found), one_law(replace(found, contenders=(*found.contenders, likely)))

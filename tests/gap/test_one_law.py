@@ -6,7 +6,7 @@ import pytest
 
 from geocontact.gap.levels import APART
 from tests.elsewhere import Elsewhere
-from tests.gap.identifiability_cases import laws_of_pair, laws_of_slow_delay
+from tests.gap.identifiability_cases import laws_of_pair, laws_of_play_and_delay, laws_of_slow_delay
 
 pytestmark = pytest.mark.slow
 
@@ -25,3 +25,11 @@ def test_of_two_effects_each_has_a_class_of_its_own(elsewhere: Elsewhere) -> Non
     found = elsewhere(laws_of_pair)
     assert found.classes == (("time_shift", "filter_lag"),)
     assert found.apart["filter_lag"] < APART
+
+
+def test_of_a_play_and_a_delay_the_delay_may_be_a_filter_whatever_else_that_is_probable_beside(
+    elsewhere: Elsewhere,
+) -> None:
+    for found in elsewhere(laws_of_play_and_delay):
+        assert found.classes == (("time_shift", "filter_lag"),)
+        assert found.apart["filter_lag"] < APART

@@ -31,6 +31,7 @@ from geocontact.gap.case.refit import free, refit
 from geocontact.gap.experiment.proposal import ModelPair, competing_models, fitted, on_trials
 from geocontact.gap.identifiability.signatures import BaseState, Sized, orthonormal, own_slopes
 from geocontact.gap.levels import APART
+from geocontact.gap.selection.model_comparison import Contender
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ def one_law(found: Attribution) -> OneLaw:
     said = found.answer
     if not said.chosen.candidates or said.verdict == "unknown":
         return OneLaw()
-    models = {frozenset(one.names): fitted(one) for one in competing_models(found)}
+    models = {frozenset(one.names): fitted(one) for one in (*competing_models(found), *class_mates(found))}
     lead, first = said.chosen.judged, frozenset(said.chosen.names)
     if first not in models:  # a mistake in the data
         return OneLaw()
@@ -73,11 +74,29 @@ def one_law(found: Attribution) -> OneLaw:
     told: dict[str, float] = {}
     places: dict[str, list[str]] = {name: [name] for name in said.effects or said.chosen.names}
     for names, model in models.items():
-        told |= {name: max(apart[first, names], apart[names, first]) for name in sorted(names - first)}
+        for name in sorted(names - first):  # of several models with an effect that counts which is closest
+            told[name] = min(max(apart[first, names], apart[names, first]), told.get(name, np.inf))
         if model.name in alike and len(names - first) == len(first - names) == 1:
             (own,), (other,) = first - names, names - first
             places[own].append(other)
     return OneLaw(tuple(tuple(each) for each in places.values() if len(each) > 1), told)
+
+
+def class_mates(found: Attribution) -> list[Contender]:
+    """The models in which, where two effects are named, one that is in question stands in place of either.
+
+    Beside a third effect it may be more probable; what it is one law with shows beside the effect that stays.
+    """
+    said = found.answer
+    first = frozenset(said.effects or said.chosen.names)
+    if len(first) != 2:
+        return []
+    best: dict[frozenset[str], Contender] = {}
+    for one in sorted(found.contenders, key=lambda each: each.judged.nats):
+        others = frozenset(one.names) - first
+        if len(one.names) == 2 and len(others) == 1 and others <= set(said.ambiguity) and not one.mistaken:
+            best[frozenset(one.names)] = one
+    return list(best.values())
 
 
 FAR = 25.0  # nats from which a first-order figure is not checked

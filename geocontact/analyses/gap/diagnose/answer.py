@@ -153,7 +153,8 @@ def one_law_words(d: Diagnosis) -> list[str]:
 def with_classes(d: Diagnosis, some: Sequence[str]) -> str:
     """Effects that are named, each with the class that it is in: `damping or filter_lag (one law on these trials)`."""
     groups = {group[0]: f"{names(group, 'or')} (one law on these trials)" for group in d.one_law}
-    return names([groups.get(name, name) for name in some])
+    shown = [groups.get(name, name) for name in some]
+    return ", and ".join(shown) if groups else names(shown)  # "and" and "or" in one list would mean two things
 
 
 def _named(d: Diagnosis, some: Sequence[str], what: str) -> list[str]:

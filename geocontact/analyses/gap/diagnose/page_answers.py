@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +12,9 @@ from geocontact.analyses.gap.diagnose.answer import axis_units
 from geocontact.analyses.gap.diagnose.curves import effect_words, quantity_of
 from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.analyses.gap.nats import ODDS, ahead_words
-from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell
+from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, Region
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.localise.structure import SHAPE
 from geocontact.view.curves.gap_map import ENERGIES, MARKS, SIGNIFICANT, WIDE, edge_text
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.sheet import number
@@ -30,6 +32,10 @@ MAP = (
     f"(p-value of at most {SIGNIFICANT:g} for the whole map). Inputs, rates and load are cut so that each cell has as "
     "many samples. All trials, base model."
 )
+REGIONS = (
+    " Regions are cells of phase, state and rate that touch; of those that are found one in twenty at most is chance "
+    "(false-discovery rate). Beside a strong gap they reach beyond its place."
+)
 REDUCTIONS = (
     "Root mean square error on trials that no parameter was fitted to. The whisker is the 95 % interval of the error "
     "that remains on new trials of the same kind: where it reaches beyond 100 %, the error may also grow on such a "
@@ -45,7 +51,34 @@ def map_strips(findings: Findings) -> Strips:
     ordered = [*(axis for axis in WIDE if axis in axes), *(axis for axis in axes if axis not in WIDE)]
     blocks = [_block([c for c in cells if c.axis == axis], axis, channels, units.get(axis, "")) for axis in ordered]
     whose = f" of {channels[0]}" if len(channels) == 1 else ""
-    return Strips(f"Where the gap{whose} is", "", channels, blocks, SCALE, MAP)
+    found = findings.diagnosis.regions
+    blocks += [region_block(found, channels)] if found else []
+    return Strips(f"Where the gap{whose} is", "", channels, blocks, SCALE, MAP + (REGIONS if found else ""))
+
+
+def region_block(found: Sequence[Region], channels: Sequence[str]) -> StripBlock:
+    """Parts of the trial that regions lie in, with the share that these hold of each channel's squared error."""
+    count = SHAPE[0]
+    values = np.zeros((len(channels), count))
+    texts = [["no region"] * count for _ in channels]
+    marks = [[""] * count for _ in channels]
+    for c, name in enumerate(channels):
+        for k in range(count):
+            middle = (k + 0.5) / count
+            here = [one for one in found if one.channel == name and one.phase[0] < middle < one.phase[1]]
+            if here:
+                values[c, k] = min(sum(one.share for one in here) / FULL, 1.0)
+                texts[c][k] = "; ".join(region_words(one) for one in here)
+                marks[c][k] = MARKS[int(np.sign(here[0].mean))]
+    edges = 100.0 * np.linspace(0.0, 1.0, count + 1)
+    return StripBlock(
+        "regions, phase of the trial [%]", [edge_text(e, 100.0) for e in edges], values, texts, marks, True
+    )
+
+
+def region_words(one: Region) -> str:
+    """Place, share and false-discovery rate of a region."""
+    return f"{one.place}: {percent(one.share)} % of the squared error, false-discovery rate {one.q_value:.2g}"
 
 
 def _block(cells: list[Cell], axis: str, channels: list[str], unit: str) -> StripBlock:

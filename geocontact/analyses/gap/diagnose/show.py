@@ -174,6 +174,17 @@ def cells_table(findings: Findings) -> Table:
     return Table(f"Gap map: {len(rows)} of {len(cells)} significant cells", CELLS_HEADER, rows)
 
 
+def regions_table(findings: Findings) -> Table:
+    """Regions in which the base model misses something, the largest share first."""
+    rows = []
+    for one in findings.diagnosis.regions:
+        quantity = quantity_of(findings, one.channel)
+        missed = f"{float(quantity.shown(np.array(one.mean))):+.3g} {quantity.unit}"
+        rows.append((one.channel, one.place, missed, f"{percent(one.share)} %", f"{one.q_value:.2g}"))
+    header = ("channel", "where", "measured less predicted", "share of the squared error", "false-discovery rate")
+    return Table("Regions in which the base model misses something", header, rows)
+
+
 def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], injected: Sequence[str] = ()) -> Page:
     """The self-contained page of one diagnosis, before it becomes a file.
 
@@ -205,7 +216,7 @@ def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], i
     sections += [Picture("Where on the surface", SURFACE_WORDS, each, wide=True) for each in surfaces]
     sections += [gap_table(findings), *([budget_shares(findings)] if d.budget else []), ranking_table(findings)]
     sections += [trials_table(findings)] if findings.trials else []
-    sections += [parameters_table(d), cells_table(findings)]
+    sections += [parameters_table(d), cells_table(findings), *([regions_table(findings)] if d.regions else [])]
     sections += [_confounded(d), INPUTS, OPTIONS, _limits(case, d, missing)]
     window = d.where[0].phase if d.where else (0.5, 0.5)
     return Page(
