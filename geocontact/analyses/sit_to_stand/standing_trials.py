@@ -13,10 +13,17 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_torques
-from geocontact.analyses.sit_to_stand.worn_trials import columns_at, joint_torques, person_of, worn_device
+from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_bending, doubt_torques
+from geocontact.analyses.sit_to_stand.worn_trials import (
+    columns_at,
+    confront_segments,
+    joint_torques,
+    person_of,
+    worn_device,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -49,8 +56,6 @@ FRICTION = 1.0
 Tribol Lett 45:1)."""
 SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
-FORWARD_KNEE = 30.0
-"""Degrees; a knee that is stretched as far as it goes is 10 degrees beyond straight at most."""
 JOINTS, UPRIGHT = slice(3, 6), np.radians(25.0)
 """Ankle, knee and hip; angles of somebody who stands."""
 CELL = "r0c0"
@@ -65,7 +70,7 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file))
-    _confront_masses(subject, file)
+    confront_segments(subject, file)
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
@@ -90,21 +95,6 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights, study.one_leg)
 
 
-SUM = 0.01
-"""Share of body mass by which own masses of all segments may differ from it."""
-
-
-def _confront_masses(subject: Subject, study: Path) -> None:
-    """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's."""
-    masses = {name: segment.mass for name, segment in subject.segments.items()}
-    if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
-        legs = sum(masses.values()) - masses["trunk"]
-        what = (
-            f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
-        )
-        raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
-
-
 def refuse_stances(trials: StandingUpTrials, study: Path) -> None:
     """InputError for stances of walking, whose one leg has no movement of its own to predict."""
     if trials.one_leg:
@@ -120,6 +110,19 @@ def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
             reserve(
                 f"{other.name}: its coordinates are those of {one.name}; name the files of each trial's own recording"
             )
+        elif ours[0] != theirs[0]:
+            for role in ("rates", "torques", "motors", "strap", "strap_shank", "strap_pelvis"):
+                own, others = (_contents(getattr(each, role)) for each in (one, other))
+                if own & others:
+                    reserve(
+                        f"{other.name}: its {role} is that of {one.name}; name the file of each trial's own recording"
+                    )
+
+
+def _contents(files: Path | Sequence[Path] | None) -> set[str]:
+    """Digests of files that are there."""
+    each = [] if files is None else [files] if isinstance(files, Path) else files
+    return {digest(file) for file in each if file.is_file()}
 
 
 def _known(
@@ -160,7 +163,7 @@ def channels_of(
     place = f"[[trials]] {files.name}"
     _require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
-    doubt_knee(files.coordinates, chain, q)
+    doubt_bending(files.coordinates, chain, q, hip_height(subject, q))
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = _plates(files, place, time, c3d_unit, turn)
     if files.task == "stance" and feet is not None:
@@ -450,15 +453,6 @@ def motion_of_file(file: Path, chain: Multibody, role: str) -> tuple[Times, Tabl
     if np.abs(np.diff(table.time) - step).max() > UNEVEN * step:
         raise InputError(file, "", f"frames are not {step:g} s apart everywhere", "fill the gaps")
     return table.time, motion_of(table, chain)
-
-
-def doubt_knee(file: Path, chain: Multibody, values: Table) -> None:
-    """A warning for a knee that bends forwards, flexion being positive."""
-    for coordinate, angle in zip(chain.coordinates, np.degrees(values).T, strict=True):
-        if coordinate.name == "knee" and angle.min() < -FORWARD_KNEE and -angle.min() > angle.max():
-            reserve(
-                f"{file}: knee is {angle.min():.0f} degrees at its least, flexion being positive: is its sign turned?"
-            )
 
 
 def _rates(file: Path, chain: Multibody, name: str, time: Times) -> Table:
