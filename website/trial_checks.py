@@ -12,11 +12,14 @@ from collections.abc import Iterable, Sequence
 from geocontact.analyses.catalogue import ENTRIES
 from geocontact.analyses.gap.case import CHANCE, GAIN
 from geocontact.analyses.mat.goodness import LOST, PALPATED
+from geocontact.analyses.modulus.goodness import LARGER_RADIUS, OTHER_RADIUS
 from geocontact.analyses.motion.goodness import SLIDING
 from geocontact.analyses.motion.marker_tasks import FAR
+from geocontact.analyses.prosthesis.walk.result import OTHER_FOOT
 from geocontact.analyses.shape.goodness import EDGE, OTHER_SIDE, POOR
 from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
+from geocontact.identify.signals.agreement import GAIN as GAIN_OFF
 from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
 from geocontact.trial_checks.recorded import Check
 from geocontact.trial_checks.table import CHECKS
@@ -54,7 +57,10 @@ stay as they are, with a warning.
 What no check can see: plates of another trial of the same person, whose steps fall on the same places and times;
 half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate in a table shows where no foot
 swings; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
-whole.
+whole; a gain below 1.3 of the only plate in its file; kgf or lbf for N in `modulus`, `knee settle` and `sit-to-stand
+movements`, where nothing else is a force; a diameter for R of a knee with two sides, whose conformity is as much; a
+drift of an axis in cm; places in m, called mm, and moments of the other sign, near the origin; a heel's marker 30 mm
+lower in the standing trial alone; a strap's unit while its stiffness is sought; plates of another rise.
 
 Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).
@@ -92,6 +98,9 @@ OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advis
 | faces that look the other way, `fit` | {OTHER_SIDE:.0%} of the area | |
 | gain of a trial with others', `gap diagnose` | {GAIN:.0%}, less likely than {CHANCE:.0%} | |
 | what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
+| R of `modulus` with dA/dT = 2πR | {LARGER_RADIUS:g} times larger; of a side {OTHER_RADIUS:g} times off | |
+| force of `prosthesis walk` with its plate | rms > {OTHER_FOOT:.0%} BW | |
+| one factor between `elbow compare` and its model | {GAIN_OFF:.0%} in every trial | |
 | landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 """
 """Those that one analysis has for itself."""

@@ -17,6 +17,7 @@ from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, part_lengths
 from geocontact.standing_up.exoskeleton_torque import parameter_names
+from geocontact.standing_up.person_segments import segments_of
 from geocontact.standing_up.worn_device import PARTS, DeviceMasses, WornDevice, identified_device
 from geocontact.trial_checks.channel_checks import odd_rate
 
@@ -40,7 +41,7 @@ def person_of(study: StandingStudy) -> Subject:
 
 SUM = 0.01
 """Share of body mass by which own masses of all segments may differ from it."""
-OWN = {"mass": (0.4, 2.2), "length": (0.65, 1.5)}
+OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
 """Times the table's value for the person's mass and height that an own value may be: a unit of length is 10, an inch
 2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
 WITHIN = {"centre": 1.0, "gyration": 0.7}
@@ -59,7 +60,7 @@ def confront_segments(subject: Subject, study: Path) -> None:
             f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
         )
         raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
-    usual = replace(subject, own={}).segments
+    usual = segments_of(subject.mass, subject.height, subject.sex, {})
     for name, values in subject.own.items():
         segment = subject.segments[name]
         for key in values:

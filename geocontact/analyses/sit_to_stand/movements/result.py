@@ -26,8 +26,8 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
-from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
+from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.standing_trials import chair_force, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
