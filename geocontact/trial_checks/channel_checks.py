@@ -55,7 +55,7 @@ BREADTHS = {
     "foot": (("heel",), ("toe",), 0.07, 0.45),
 }
 """Landmarks on the right and on the left, of a foot heel and toes of one side, and m between which they are apart; in
-ten recordings of nine people 0.25 to 0.28, 0.31 to 0.42 and 0.18 to 0.28 m, so that the limits hold a child too."""
+recordings of five people 0.25 to 0.28, 0.31 to 0.42 and 0.18 to 0.28 m, so that the limits hold a child too."""
 
 
 def breadths(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -128,9 +128,9 @@ def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:
 LENGTH_CHECKS = (
     Check(
         "unit of length",
-        "breadth of pelvis and shoulders and length of the feet, by the markers' labels, with those of people",
-        "; ".join(f"{part} {least:g} to {most:g} m" for part, (_, _, least, most) in BREADTHS.items())
-        + "; nine people have 0.25 to 0.28, 0.31 to 0.42 and 0.18 to 0.28 m",
+        "breadth of pelvis and shoulders, and length of the feet, with those of people",
+        "; ".join(f"{least:g} to {most:g} m" for _, _, least, most in BREADTHS.values())
+        + "; five people: 0.25 to 0.28, 0.31 to 0.42, 0.18 to 0.28 m",
         breadths,
     ),
 )
@@ -138,8 +138,7 @@ LENGTH_CHECKS = (
 CHANNEL_CHECKS = (
     Check(
         "sampling",
-        "samples in a second of markers, plates, coordinates and channels with those of measuring devices, and the "
-        "longest step of time with the usual one",
+        "samples in a second with those of measuring devices, and the longest step of time with the usual one",
         f"{SLOWEST:g} to {FASTEST:g} Hz; cameras take 25 to 500, plates 100 to 5000 (Winter, Biomechanics, 2009); "
         f"{MISSING:g} steps",
         rates,

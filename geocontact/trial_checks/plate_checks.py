@@ -305,7 +305,7 @@ def one_foot_each(trial: TrialInputs) -> Iterator[Contradiction]:
 PLATE_CHECKS = (
     Check(
         "mass",
-        "mean vertical force of each step with the weight of the mass that was given",
+        "mean vertical force of each step with the weight of the mass",
         f"{MEAN[0]:g} to {MEAN[1]:g} times the weight, for steps of {STANCE:g} to {STILL:g} s; walking people: 0.76 to "
         "0.86 (half of the weight over 0.58 to 0.66 of the cycle; Perry, Gait Analysis, 1992); all plates together, "
         f"where they carry all the time, within {WHOLE:.0%}",
@@ -313,7 +313,7 @@ PLATE_CHECKS = (
     ),
     Check(
         "standing weight",
-        "force out of the floor of all plates, while the person stands on them, with the weight of the mass",
+        "force of all plates, while the person stands on them, with the weight of the mass",
         f"{WEIGHT:.0%} of the weight, mean of {STANDING:g} s; rising at 1 m/s² is as much; refused from "
         f"{OTHER_WEIGHT:.0%} on",
         standing_weight,
@@ -338,8 +338,7 @@ PLATE_CHECKS = (
     ),
     Check(
         "braking",
-        "force along the walk in the first and in the second half of a step, with the direction in which markers "
-        "move, or the hip over the foot",
+        "force along the walk in both halves of a step, with the way that markers go, or the hip over the foot",
         f"{IMPULSE:.0%} of the load, of somebody faster than {SPEED:g} m/s; a load that moves by {1e3 * TRAVEL:g} mm",
         braking,
     ),

@@ -324,7 +324,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
         "unit of length",
         lambda t: moved(replace(t, standing=None, plates=()), lambda p: 0.1 * p),
     ),
-    "a standing trial in mm, called cm": (
+    "a standing trial in cm": (
         "unit of length",
         lambda t: replace(t, standing=replace(t.standing, positions=10.0 * t.standing.positions)),
     ),
