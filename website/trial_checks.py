@@ -46,7 +46,8 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 |---|---|---|---|
 """
 BATTERY = """
-The shipped trials are damaged in {count} ways, counted above, each refused or warned of with its cause. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
+The shipped trials are damaged in {count} ways, counted above, each refused or warned of with its cause. A real walk
+is damaged in {real} more. {recordings} real recordings, {models} motions of models and
 {meshes} sets of surfaces pass, but for jumps of 40 to 54 mm in two files.
 
 `--axes` turns markers and plates alike; plates that are upright only before that turn stay, with a warning.
