@@ -60,11 +60,10 @@ def _check(r: ElbowRecording, path: Path) -> None:
     """Rate and sizes of the channels, as of every trial; a channel that stands still while the angle changes."""
     units = {"force": "N", "moment": "N m", "torque": "N m", "displacement": "m", "alpha": "rad"}
     channels = {name: own for name in units if (own := getattr(r, name)) is not None and own.any()}
-    angles = {"beta": r.beta} | {n: own for n in ("alpha", "target") if (own := getattr(r, n)) is not None}
-    loads = {"force": r.force} | ({} if r.moment is None else {"moment": r.moment})
-    for one, other in (*same_recordings(angles), *same_recordings(loads)):
-        what = f"{other} has the values of {one}, sample by sample"
-        raise InputError(path, "", what, "name each its own column, or leave it out: see `map`")
+    for one, own, other in (("beta", r.beta, "alpha"), ("force", r.force, "moment")):
+        if (beside := getattr(r, other)) is not None and same_recordings({one: own, other: beside}):
+            what = f"{other} has the values of {one}, sample by sample"
+            raise InputError(path, "", what, "name each its own column, or leave it out: see `map`")
     check_trial(
         TrialInputs(
             channels=tuple(RecordedChannel(name, units[name], r.time, own, str(path)) for name, own in channels.items())
