@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import inspect
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from geocontact.analyses.catalogue import ENTRIES
 from geocontact.analyses.gap.case import CHANCE, GAIN
 from geocontact.analyses.mat.goodness import LOST, PALPATED
+from geocontact.analyses.modulus.goodness import LARGER_RADIUS, OTHER_RADIUS
 from geocontact.analyses.motion.goodness import SLIDING
 from geocontact.analyses.motion.marker_tasks import FAR
+from geocontact.analyses.prosthesis.walk.result import OTHER_FOOT
 from geocontact.analyses.shape.goodness import EDGE, OTHER_SIDE, POOR
 from geocontact.gap.levels import LEFT_OVER
 from geocontact.identify import goodness_of_fit as fit
+from geocontact.identify.signals.agreement import GAIN as GAIN_OFF
 from geocontact.trial_checks.mesh_checks import MESH_CHECKS, MeshCheck
 from geocontact.trial_checks.recorded import Check
 from geocontact.trial_checks.table import CHECKS
@@ -43,20 +46,19 @@ Surfaces of `area`, `knee settle`, `fit` with `other` and `mat` with a second sc
 |---|---|---|---|
 """
 BATTERY = """
-Over the commands, the shipped trials are damaged in {count} ways, each refused or warned of with its cause:
-{counts}. A real walk is damaged in {real} more. {recordings} real recordings, {models} motions of models and
-{meshes} sets of surfaces pass without a warning but of jumps of 40 to 54 mm that two
-files hold.
+The shipped trials are damaged in {count} ways, counted above, each refused or warned of with its cause. A real walk
+is damaged in {real} more. {recordings} real recordings, {models} motions of models and
+{meshes} sets of surfaces pass, but for jumps of 40 to 54 mm in two files.
 
-`--axes` turns markers and plates alike: forces, moments, points. Plates whose forces are upwards only before that turn
-stay as they are, with a warning.
+`--axes` turns markers and plates alike; plates that are upright only before that turn stay, with a warning.
 
-What no check can see: plates of another trial of the same person, whose steps fall on the same places and times;
-half of the force where no mass is known, in `cop` and `gap gather`; 60 N that a plate in a table shows where no foot
-swings; a mirrored force along the floor of who stands up; steps with which a recording begins or ends, which are not
-whole.
+What no check can see: plates of another trial of that person with steps at the same places and times; half of the
+force without a mass, in `cop` and `gap gather`; 60 N on a plate over which no foot swings; a mirrored force along the
+floor of who stands up; steps that are not whole; a gain below 1.3 of a file's only plate; kgf or lbf in `modulus`,
+`knee settle` and `sit-to-stand movements`; a diameter for R of a two-sided knee; a drift in cm; m called mm, and signs
+of moments, near the origin; a heel 30 mm lower in the standing trial; a strap's unit while its stiffness is sought.
 
-Checks on the way in and out took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
+Checks took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).
 
 ## On the way out: a result against its data
@@ -64,7 +66,7 @@ Checks on the way in and out took {median:.1%} of a command's CPU time in the me
 A result that was compared with data says so in `run.json` (`fit`), and in Python as `result.fit_outcome`: `fits`,
 `doubtful`, or `contradicts`. With `contradicts` that is the first sentence, the command ends with 1 (2 where a check
 above warned of more than a jump), no parameter is called known, ends of intervals and standard errors stay empty. A
-doubt is a warning. It is in {judged}; studies and `gap diagnose --many` list it for every trial.
+doubt is a warning. {judged} commands judge their result so; studies and `gap diagnose --many` list it for every trial.
 
 | check | doubtful | contradicts |
 |---|---|---|
@@ -92,19 +94,16 @@ OWN = f"""| markers with the model, `ik` and `scale` | beyond what OpenSim advis
 | faces that look the other way, `fit` | {OTHER_SIDE:.0%} of the area | |
 | gain of a trial with others', `gap diagnose` | {GAIN:.0%}, less likely than {CHANCE:.0%} | |
 | what `gap diagnose` names with held-out trials | {LEFT_OVER:.0%} of the squared error stay | {fit.MUCH:.0%} stay |
+| R of `modulus`, dA/dT = 2πR | {LARGER_RADIUS:g} times; a side {OTHER_RADIUS:g} | |
+| force of `prosthesis walk` with its plate | rms > {OTHER_FOOT:.0%} BW | |
+| gain of `elbow compare` | {GAIN_OFF:.0%} in every trial | |
 | landmarks of `mat` | rms > {1e3 * PALPATED:g} mm | rms > {1e3 * LOST:g} mm |
 """
 """Those that one analysis has for itself."""
 NOISE = """
 s is the stated noise of a residual r, z = (mean r²/s² − 1) / √(2/n (1 + 2 Σρ²)), with ρ the residual's autocorrelation
-up to its first negative value, which makes the excess of a slow residual less sure (Bartlett 1946).
+up to its first negative value (Bartlett 1946).
 """
-
-
-def listed(names: Sequence[str]) -> str:
-    """Names in backticks with an "and"."""
-    quoted = [f"`{name}`" for name in names]
-    return f"{', '.join(quoted[:-1])} and {quoted[-1]}" if len(quoted) > 1 else "".join(quoted)
 
 
 def _rows(checks: Iterable[Check | MeshCheck], damaged: dict[str, list[str]]) -> str:
@@ -147,18 +146,17 @@ def trial_checks() -> str:
     from tests.real import test_real_trial_checks as real
     from tests.trial_checks import test_checks, test_commands, test_mesh_checks
 
-    trials = HEAD.format(commands=listed(list(test_commands.COMMANDS))) + _rows(CHECKS, _damages(test_checks.DAMAGED))
+    commands = ", ".join(f"`{name}` ({len(damages)})" for name, (_, _, damages) in test_commands.COMMANDS.items())
+    trials = HEAD.format(commands=commands) + _rows(CHECKS, _damages(test_checks.DAMAGED))
     surfaces = SURFACES + _rows(MESH_CHECKS, _damages(test_mesh_checks.DAMAGED))
-    counts = ", ".join(f"`{name}` {len(damages)}" for name, (_, _, damages) in test_commands.COMMANDS.items())
     cost = json.loads((ROOT / "benchmarks" / "results" / "checks_cost.json").read_text("utf-8"))["figures"]
     battery = BATTERY.format(
         count=len(test_commands.EACH),
-        counts=counts,
         real=len(real.DAMAGED),
         recordings=len(real.TRIALS),
         models=len(real.MODELS),
         meshes=len(real.SURFACES),
-        judged=listed(_judged()),
+        judged=len(_judged()),
         median=cost["median"],
         most=cost["most"],
         commands=sum(len(row) > 2 for row in cost["commands"].values()),

@@ -249,7 +249,9 @@ def _require_side(seen: MarkerTrajectories, at: dict[str, Vector]) -> None:
     knee = 0.5 * (at[KNEE[0]] + at[KNEE[1]])
     if not middle[1] - knee[1] > 0.15:
         what = f"the pelvis is {middle[1] - knee[1]:.2f} m above the knee along y"
-        raise InputError(seen.source, "`static`", what, "y must be up: turn the file with `axes`")
+        raise InputError(
+            seen.source, "`static`", what, "y must be up: turn the file with `axes`; is its unit of length right?"
+        )
     right = np.cross(forward, [0.0, 1.0, 0.0])
     wrong = (at[PELVIS[0]] - at[PELVIS[1]]) @ right <= 0.0
     if wrong or (knee - middle) @ right <= 0.0 or (at[KNEE[0]] - at[KNEE[1]]) @ right <= 0.0:

@@ -1,4 +1,4 @@
-"""How often and how large: rates of sampling, and the size of whatever else was recorded, by its unit."""
+"""How often and how large: rates of sampling, breadths of a body, and the size of whatever else was recorded."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.trial_checks.landmarks import middle
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
 MISSING = 4.5
@@ -46,6 +47,33 @@ SIZES = {
     "V": Size(1e-6, 20.0, ("kV", "mV"), "noise of an electromyogram's electrode; an amplifier's supply"),
 }
 """By unit; what people, their implants and devices do not go beyond."""
+
+
+BREADTHS = {
+    "pelvis": (("asis",), ("asis",), 0.12, 0.5),
+    "shoulders": (("shoulder",), ("shoulder",), 0.15, 0.8),
+    "foot": (("heel",), ("toe",), 0.07, 0.45),
+}
+"""Landmarks on the right and on the left, of a foot heel and toes of one side, and m between which they are apart; in
+recordings of five people 0.25 to 0.28, 0.31 to 0.42 and 0.18 to 0.28 m, so that the limits hold a child too."""
+
+
+def breadths(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Breadth of pelvis and shoulders and length of the feet, by their labels, with those of people."""
+    for seen in trial.recordings:
+        off: list[str] = []
+        for part, (ones, others, least, most) in BREADTHS.items():
+            for side in ("right", "left") if part == "foot" else ("",):
+                one, other = middle(seen, ones, side or "right"), middle(seen, others, side or "left")
+                if one is None or other is None:
+                    continue
+                apart = float(np.nanmedian(np.linalg.norm(one - other, axis=1)))
+                if not (np.isnan(apart) or least <= apart <= most):
+                    which = f"{side} foot" if side else part
+                    off.append(f"{which} {1e3 * apart:.3g} mm")
+        if off:
+            what = f"its markers are too near or too far from each other: {', '.join(off)}"
+            yield Contradiction(seen.source, "", what, "is its unit of length right?")
 
 
 def _rate(time: Float[np.ndarray, " t"]) -> float:
@@ -97,11 +125,20 @@ def sizes_of_channels(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(one.source, "", what, f"is it in {likely}?")
 
 
+LENGTH_CHECKS = (
+    Check(
+        "unit of length",
+        "breadth of pelvis and shoulders, and length of the feet, with those of people",
+        "; ".join(f"{least:g} to {most:g} m" for _, _, least, most in BREADTHS.values())
+        + "; five people: 0.25 to 0.28, 0.31 to 0.42, 0.18 to 0.28 m",
+        breadths,
+    ),
+)
+"""A check of the unit, before those that another unit makes speak."""
 CHANNEL_CHECKS = (
     Check(
         "sampling",
-        "samples in a second of markers, plates, coordinates and channels with those of measuring devices, and the "
-        "longest step of time with the usual one",
+        "samples in a second with those of measuring devices, and the longest step of time with the usual one",
         f"{SLOWEST:g} to {FASTEST:g} Hz; cameras take 25 to 500, plates 100 to 5000 (Winter, Biomechanics, 2009); "
         f"{MISSING:g} steps",
         rates,

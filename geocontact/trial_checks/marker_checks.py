@@ -323,7 +323,7 @@ def same_floor(trial: TrialInputs) -> Iterator[Contradiction]:
 MARKER_CHECKS = (
     Check(
         "jump",
-        "a marker with its own course, and with the place of every other marker that jumps in the same frame",
+        "a marker with its own course, and with others that jump in the same frame",
         f"{1e3 * STEP:.0f} mm from one frame to the next, or {ACCELERATION:.0f} m/s² where frames are far apart; "
         "six people who walk have 40 to 190 m/s²",
         jumps,

@@ -129,7 +129,7 @@ def of_one_side(pair: SurfacePair) -> Iterator[Contradiction]:
 MESH_CHECKS = (
     MeshCheck(
         "same surface",
-        "edges of one surface with those of the other, wherever they lie",
+        "edges of one surface with those of the other",
         f"all alike to {SAME:g}",
         same_surface,
     ),

@@ -135,6 +135,8 @@ class TrialInputs:
         Velocity of the hip over the foot in a step [m/s], where there are no markers; None where it is not known.
     on_sole
         Whether heel and toes are points of the sole, and no markers above it.
+    beside
+        Further plates of the same file, on which the other foot may stand.
     """
 
     markers: MarkerTrajectories | None = None
@@ -153,6 +155,7 @@ class TrialInputs:
     channels: tuple[RecordedChannel, ...] = ()
     walk: Float[np.ndarray, " 3"] | None = None
     on_sole: bool = False
+    beside: tuple[ForcePlate, ...] = ()
 
     @property
     def recordings(self) -> tuple[MarkerTrajectories, ...]:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Sequence
 
 from geocontact.trial_checks.body_checks import BODY_CHECKS
-from geocontact.trial_checks.channel_checks import CHANNEL_CHECKS
+from geocontact.trial_checks.channel_checks import CHANNEL_CHECKS, LENGTH_CHECKS
 from geocontact.trial_checks.foot_checks import FOOT_CHECKS
 from geocontact.trial_checks.marker_checks import MARKER_CHECKS
 from geocontact.trial_checks.plate_checks import PLATE_CHECKS
@@ -15,6 +15,7 @@ from geocontact.trial_checks.twice import COPY_CHECKS
 
 CHECKS: tuple[Check, ...] = (
     *COPY_CHECKS,
+    *LENGTH_CHECKS,
     *MARKER_CHECKS,
     *PLATE_CHECKS,
     *FOOT_CHECKS,

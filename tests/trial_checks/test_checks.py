@@ -129,6 +129,16 @@ def heel_for_toe(places: np.ndarray) -> np.ndarray:
     return places
 
 
+def heels(by: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Markers of both heels farther down [m]."""
+
+    def change(places: np.ndarray) -> np.ndarray:
+        places[:, [0, 5], 1] -= by
+        return places
+
+    return change
+
+
 def later(by: float) -> Callable[[ForcePlate], ForcePlate]:
     """A clock that is late [s]."""
     return lambda plate: replace(plate, time=plate.time + by)
@@ -309,6 +319,15 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "centre of pressure in mm": ("foot on plate", lambda t: plated(t, millimetres)),
     "nobody on the plates": ("mass", lambda t: plated(t, forced((0.02, 0.02, 0.02)))),
     "floor 50 mm up": ("floor", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
+    "a heel's marker 45 mm lower": ("floor", lambda t: moved(replace(t, standing=None), heels(0.045))),
+    "markers in cm, called mm": (
+        "unit of length",
+        lambda t: moved(replace(t, standing=None, plates=()), lambda p: 0.1 * p),
+    ),
+    "a standing trial in cm": (
+        "unit of length",
+        lambda t: replace(t, standing=replace(t.standing, positions=10.0 * t.standing.positions)),
+    ),
     "a foot that does not stand flat": ("foot while standing", lambda t: standing_moved(t, 1, 0.07)),
     "a floor 50 mm lower": ("foot while standing", lambda t: standing_moved(replace(t, floor=0.0), None, 0.05)),
     "the walk alone 50 mm up": ("floor of both trials", lambda t: moved(t, lambda p: p + np.array([0.0, 0.05, 0.0]))),
@@ -346,6 +365,8 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "a marker 5 mm beside another": lambda t: moved(replace(t, standing=None), doubled(0.005)),
     "0.2 s of a walk with the standing trial": lambda t: replace(t, markers=part(t.markers, 20), plates=()),
     "5 frames with the last place": lambda t: moved(replace(t, standing=None), held(5)),
+    "heels' markers 30 mm lower": lambda t: moved(replace(t, standing=None), heels(0.03)),
+    "half as large": lambda t: moved(replace(t, standing=None, plates=()), lambda p: 0.6 * p),
     "two frames missing": lambda t: later_half(t, 0.02),
     "110 kg with an upper arm of 0.3 m": carried(110.0),
     **modelled.NEARLY,

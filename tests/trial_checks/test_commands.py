@@ -102,6 +102,7 @@ WALKED = {
     "mass in pounds": option(mass=2.2046 * MASS),
     "force in kN": plates_changed(times(1e-3, "_vy")),
     "force / 2": plates_changed(alike(*(times(0.5, f"_v{a}") for a in "xyz"))),
+    "the gain of one plate x 1.3": plates_changed(alike(*(times(1.3, f"own_force_v{a}") for a in "xyz"))),
     "sign of the force along the walk": plates_changed(times(-1.0, "_vx")),
     "sign of all forces": plates_changed(alike(*(times(-1.0, f"_v{a}") for a in "xyz"))),
     "plates 0.1 s late": plates_changed(late(0.1)),
@@ -117,6 +118,9 @@ WALKED = {
     "decimal comma in the plates": decimal_comma("plates.mot"),
     "decimal comma in the markers": decimal_comma("walking.trc"),
     "markers in m, called mm": markers_changed("walking.trc", larger(1e-3)),
+    "markers in cm, called mm": all_of(
+        markers_changed("walking.trc", larger(0.1)), markers_changed("standing.trc", larger(0.1))
+    ),
 }
 
 
@@ -467,7 +471,7 @@ JOINED = {
     for name in (
         "standing trial 25 % larger", "right and left mirrored", "z is up", "a jump of 150 mm",
         "labels exchanged half-way", "the standing trial twice", "decimal comma in the markers",
-        "markers in m, called mm",
+        "markers in m, called mm", "markers in cm, called mm",
     )
 }  # fmt: skip
 COMPARISON = {

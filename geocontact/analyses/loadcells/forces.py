@@ -315,6 +315,7 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
 UNLOADED = 0.4  # of the largest total; in swing a knee bears less
+LIGHT = 1.2  # weights; walking 2.6 (Kutzner, there), standing on both legs 1.1
 MUCH = 5000.0  # N; five times 100 kg, down stairs it is 3.5 times the weight (Kutzner, J Biomech 43, 2010)
 HELD, CHANGE = 8, 0.05  # samples of one value, and the change of another cell meanwhile, of the largest total
 CYCLES, DRIFTS = 3, 0.1  # from which least forces are compared, and by how much of the largest total they differ
@@ -333,7 +334,7 @@ def recorded_forces(given: LoadCellInputs, o: LoadcellOptions) -> tuple[Recorded
     for each in recorded:
         judge(goodness_of_cells(each.file.name, each.forces.total, each.by_cell(given.regression)))
     for each in recorded:
-        _summarise(each, given.regression)
+        _summarise(each, given.regression, o.body_weight)
     return recorded
 
 
@@ -355,7 +356,7 @@ def _describe(regression: CellRegression) -> None:
     )
 
 
-def _summarise(r: RecordedCells, regression: CellRegression) -> None:
+def _summarise(r: RecordedCells, regression: CellRegression, weight: float | None) -> None:
     f = r.forces
     peaks = {side: float(values.max()) for side, values in f.curves.items()}
     least = -SLIGHT * peaks["total"]
@@ -366,6 +367,11 @@ def _summarise(r: RecordedCells, regression: CellRegression) -> None:
     if peaks["total"] < LITTLE:
         what = f"the total stays below {peaks['total']:.0f} N, little for a knee that walks"
         reserve(f"{r.file}: {what}; if the file is in lbf pass `unit` lbf")
+    elif weight is not None and peaks["total"] < LIGHT * weight:
+        what = (
+            f"the total stays below {peaks['total'] / weight:.2f} times the body's weight, little for a knee that walks"
+        )
+        reserve(f"{r.file}: {what}; are `body_mass` in kg and the forces in their unit?")
     if peaks["total"] > MUCH:
         what = f"the total reaches {peaks['total']:.0f} N, much for a knee"
         reserve(f"{r.file}: {what}; is its unit right, N or lbf? see `unit`")

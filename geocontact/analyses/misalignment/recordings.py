@@ -19,6 +19,7 @@ from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
 from geocontact.io.text.columns import parse_map
 from geocontact.trial_checks.recorded import RecordedChannel, TrialInputs
+from geocontact.trial_checks.twice import same_recordings
 
 SMOOTHED, KEPT = ("displacement", "torque", "moment", "alpha"), ("pressure", "target")
 """Channels beside angle and force that a filter smooths, and that it only takes to even times."""
@@ -59,6 +60,10 @@ def _check(r: ElbowRecording, path: Path) -> None:
     """Rate and sizes of the channels, as of every trial; a channel that stands still while the angle changes."""
     units = {"force": "N", "moment": "N m", "torque": "N m", "displacement": "m", "alpha": "rad"}
     channels = {name: own for name in units if (own := getattr(r, name)) is not None and own.any()}
+    for one, own, other in (("beta", r.beta, "alpha"), ("force", r.force, "moment")):
+        if (beside := getattr(r, other)) is not None and same_recordings({one: own, other: beside}):
+            what = f"{other} has the values of {one}, sample by sample"
+            raise InputError(path, "", what, "name each its own column, or leave it out: see `map`")
     check_trial(
         TrialInputs(
             channels=tuple(RecordedChannel(name, units[name], r.time, own, str(path)) for name, own in channels.items())
@@ -72,6 +77,36 @@ def _check(r: ElbowRecording, path: Path) -> None:
                 turned = f"while the hinge turns by {np.degrees(np.ptp(r.beta[start:stop])):.0f} degrees"
                 reserve(f"{path}: {name} has one value {when}, {turned}: is it clipped, or was its sensor off?")
                 break
+
+
+FOLLOWS, LOST, LEVER = 0.8, 0.5, 0.4
+"""Correlation of moment and force in the other trials from which one of another sign, or of less than that share of it,
+is spoken of; and m, of the lever between them: cuffs are 0.05 to 0.2 m from the link's end."""
+
+
+def doubt_moments(paths: Sequence[Path], found: Sequence[ElbowRecording]) -> None:
+    """A warning for a measured moment that goes with its force in another way than in the other trials.
+
+    Both are of one cuff: the moment over the force is a lever, which is one in all trials.
+    """
+    known = [(path, r.force, r.moment) for path, r in zip(paths, found, strict=True) if r.moment is not None]
+    known = [each for each in known if np.ptp(each[1]) > 0.0 and np.ptp(each[2]) > 0.0]
+    alike = [float(np.corrcoef(force, moment)[0, 1]) for _, force, moment in known]
+    levers = [abs(float(np.polyfit(force, moment, 1)[0])) for _, force, moment in known]
+    if known and np.median(np.abs(alike)) > FOLLOWS and np.median(levers) > LEVER:
+        what = f"its moment over its force is a lever of {np.median(levers):.2g} m (median of the trials)"
+        reserve(f"{known[0][0]}: {what}: are moment and force in N m and N?", cause=True)
+    for k, (path, _, _) in enumerate(known):
+        others = np.array(alike[:k] + alike[k + 1 :])
+        if not len(others) or np.min(np.abs(others)) < FOLLOWS or len(set(np.sign(others))) > 1:
+            continue
+        share = alike[k] / float(np.median(others))
+        if share < LOST:
+            what = (
+                f"its moment goes with its force by a correlation of {alike[k]:.2f}, in the others by {others[0]:.2f}"
+            )
+            cause = "is its sign turned in this trial?" if share < -LOST else "is it of this trial, on its clock?"
+            reserve(f"{path}: {what}: {cause}", cause=True)
 
 
 def _filtered(path: Path, r: ElbowRecording, cutoff: float) -> ElbowRecording:

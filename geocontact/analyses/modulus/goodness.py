@@ -9,9 +9,10 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.modulus.identified import Identified
+from geocontact.analyses.modulus.inputs import HALVES
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
 from geocontact.data.plausible import ADHESION, BEARING, CONTACT
-from geocontact.elastic_modulus.area_force import MODULUS, WORK
+from geocontact.elastic_modulus.area_force import MODULUS, WORK, ThresholdAreas
 from geocontact.elastic_modulus.identify import agreement
 from geocontact.elastic_modulus.sensitivity import constant
 from geocontact.identify.goodness_of_fit import DESCRIBES, Doubt, GoodnessOfFit, of_r2, of_size
@@ -20,6 +21,11 @@ from geocontact.trial_checks.twice import same_recordings
 
 OFFSET, TAKEN = 0.1, 0.1
 """Parts of the largest force, and of the squared residual that may stay with a constant beside the law."""
+
+
+OTHER_RADIUS, LARGER_RADIUS = 2.0, 1.6
+"""Times the radius of a side, either way, and of all contacts together, above, that the given one may be. Bodies that
+conform have a larger radius than either alone: 40 and 47 mm where the sample's femoral condyles have 37."""
 
 
 def goodness_of(found: Identified) -> GoodnessOfFit:
@@ -62,6 +68,28 @@ def _of_exchanged(found: Identified) -> Iterable[Doubt]:
         yield Doubt(f"{what} if medial and lateral forces were exchanged: are their columns?", False)
 
 
+def radius_by_areas(areas: ThresholdAreas) -> float:
+    """Radius R of a contact by how its area A grows with the threshold T, dA/dT = 2 pi R [m]; NaN where none shows it.
+
+    Of two surfaces whose distance is d0 + r^2/(2 R), the area nearer than T is 2 pi R (T - d0) (a paraboloid's; without
+    load). Two contacts at once show the sum of their radii.
+    """
+    grown = np.diff(areas.area, axis=1)[areas.area[:, 0] > 0.0] / np.diff(areas.thresholds)
+    return float(np.median(grown) / (2.0 * np.pi)) if grown.size else float("nan")
+
+
+def _of_radius(side: str, areas: ThresholdAreas) -> Iterable[Doubt]:
+    """A doubt for a radius that is not that by which the area grows with the threshold."""
+    shown, given = radius_by_areas(areas), float(np.median(areas.radius))
+    if side not in HALVES:  # one contact, or the sum of two
+        far = given > LARGER_RADIUS * shown > 0.0
+    else:
+        far = shown > 0.0 and max(given / shown, shown / given) > OTHER_RADIUS
+    if far:
+        what = f"{side}: the area grows with the threshold as on a radius of {1e3 * shown:.3g} mm, dA/dT = 2 pi R, and"
+        yield Doubt(f"{what} R is {1e3 * given:.4g} mm: is one of them a diameter, or in another unit?", False)
+
+
 def _of_zero(side: str, measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"]) -> Iterable[Doubt]:
     """A doubt for a force that is not zero without contact: a constant beside the law takes most of what it leaves."""
     design = np.column_stack([predicted, np.ones_like(predicted)])
@@ -94,6 +122,8 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield replace(doubt, what=f"{doubt.what}: is the force in N, and are the areas in mm²?", contradicts=False)
     if (work := each.profiles.get(WORK)) and not work.upper_open:
         yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)
+    if each.model.reading.name != "strip":
+        yield from _of_radius(side, each.model.evolution)
     width, radius = float(np.sqrt(each.model.evolution.area.max() / np.pi)), float(np.max(each.model.evolution.radius))
     if width > radius:
         what = f"{side}: the largest area is that of a circle of {1e3 * width:.1f} mm, wider than the radius of the"

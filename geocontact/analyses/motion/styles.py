@@ -23,6 +23,8 @@ Trials = dict[str, dict[str, Float[np.ndarray, "_ 101"]]]
 
 SLACK = 1e-6
 """s; by which an event may lie outside of its recording."""
+UNEVEN = 1.7
+"""Times the shortest cycle of a style that its longest may last; an event that is missing makes it 2."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,12 @@ class Cutting:
             known = ", ".join(sorted({each.recording for each in self.events if each.recording})) or "none named"
             what = f"no cycle of the {side} side in recording {recording!r} (recordings: {known})"
             raise InputError(self.file, "", what, f"a cycle takes {needs}")
+        for style in sorted({each.style for each in found}):
+            lasts = [each.end - each.start for each in found if each.style == style]
+            if max(lasts) > UNEVEN * min(lasts):
+                name = f"cycles of {style} in {recording}" if style else f"cycles of {recording}"
+                what = f"{name} last {min(lasts):.3g} to {max(lasts):.3g} s"
+                reserve(f"{self.file}: {what}: is a {STRIKE} missing, or one too many?")
         return found
 
     def trials_of(

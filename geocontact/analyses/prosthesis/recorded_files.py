@@ -113,7 +113,10 @@ class LaboratoryFiles:
         """
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
-        check_trial(TrialInputs(seen, standing, plates, mass, height, floor=floor, turn=turn_of(self.axes)))
+        named = {on.plate.name for on in plates}
+        beside = tuple(each for each in self.plates(file) if each.name not in named) if file else ()
+        turn = turn_of(self.axes)
+        check_trial(TrialInputs(seen, standing, plates, mass, height, floor=floor, turn=turn, beside=beside))
 
 
 SHORTEST_SWING = 0.25

@@ -85,6 +85,10 @@ def spheres_of(file: Path, d: SoleDescription, keel: Keel) -> DescribedSole:
     return DescribedSole(sole, law, d.below.value, origin)
 
 
+HIGH = 0.06
+"""m; half of a keel, its cover and a heel's wedge are lower."""
+
+
 def foam_of(file: Path, d: FoamDescription, keel: Keel) -> DescribedSole:
     """Columns of foam on the segments above them, and their law; InputError for what cannot be."""
     foam = _cut(file, d, keel)
@@ -96,6 +100,12 @@ def foam_of(file: Path, d: FoamDescription, keel: Keel) -> DescribedSole:
                 f"{1e3 * own.thickness.value:g} mm, and the sole ends {1e3 * d.below.value:g} mm below the keel's axis"
             )
             raise InputError(file, f"{place} thickness", what, "foam lies below the axis: correct it, or [foam] below")
+        above = d.below.value - own.thickness.value
+        if above > HIGH:
+            what = (
+                f"{1e3 * above:.0f} mm of something else lie between the keel's axis and {1e3 * own.thickness.value:g}"
+            )
+            reserve(f"{file} {place} thickness: {what} mm of foam: are it and [foam] below in their units?")
     _check_order(
         file,
         {zone: 0.5 * (start + stop) for zone, (start, stop, _) in foam.cuts.items()},

@@ -32,6 +32,33 @@ CUTOFF, FARTHEST, LATE, CLEARER = 6.0, 0.45, 0.1, 0.2
 """Hz, of both; s, of the lags that are looked at, and s and correlation from which a clock is doubted."""
 
 
+FORWARD_KNEE, BENT = 30.0, 60.0
+"""Degrees; a knee that is stretched as far as it goes is 10 degrees beyond straight at most; and from which somebody
+sits or squats where the hip is lowest."""
+SEATED = {"ankle": 15.0, "hip": -20.0}
+"""Degrees that ankle and hip have there at most, flexion being negative: shanks lean forwards, or hardly backwards, and
+the trunk is above the thighs."""
+
+
+def doubt_bending(
+    file: Path, chain: Multibody, values: Float[np.ndarray, "t c"], height: Float[np.ndarray, " t"]
+) -> None:
+    """A warning for a knee that bends forwards, and for ankle and hip that bend backwards where the hip is lowest.
+
+    Flexion is positive at the knee, negative at ankle and hip; `height` [m] is that of the hip.
+    """
+    angles = {c.name: angle for c, angle in zip(chain.coordinates, np.degrees(values).T, strict=True)}
+    knee = angles["knee"]
+    if knee.min() < -FORWARD_KNEE and -knee.min() > knee.max():
+        reserve(f"{file}: knee is {knee.min():.0f} degrees at its least, flexion being positive: is its sign turned?")
+        return
+    lowest = int(np.argmin(height))
+    for name, most in SEATED.items():
+        if knee[lowest] > BENT and angles[name][lowest] > most:
+            what = f"{name} is {angles[name][lowest]:.0f} degrees where the hip is lowest and the knee bent by"
+            reserve(f"{file}: {what} {knee[lowest]:.0f}, flexion of {name} being negative: is its sign turned?")
+
+
 def doubt_torques(name: str, file: Path, chain: Multibody, trial: StandingTrial) -> None:
     """Recorded torques of the joints, and of hinges beside them, with those that ground and coordinates ask for."""
     if trial.torque is None or trial.chair is not None or not trial.force.any():

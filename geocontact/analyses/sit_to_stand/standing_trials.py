@@ -12,16 +12,16 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_torques
+from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_bending, doubt_torques
 from geocontact.analyses.sit_to_stand.trial_recordings import (
     FEWEST,
     Times,
     Used,
     chair_force,
     confront_shear,
-    doubt_knee,
     motion_of_file,
     named_plate,
     plates_of_trial,
@@ -31,7 +31,7 @@ from geocontact.analyses.sit_to_stand.trial_recordings import (
     site_shear,
     wrench_at,
 )
-from geocontact.analyses.sit_to_stand.worn_trials import joint_torques, person_of, worn_device
+from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, joint_torques, person_of, worn_device
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -56,7 +56,7 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file))
-    _confront_masses(subject, file)
+    confront_segments(subject, file)
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
@@ -81,21 +81,6 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     return StandingUpTrials(subject, noise, with_chairs(read), worn, free, tracks, sites, weights, study.one_leg)
 
 
-SUM = 0.01
-"""Share of body mass by which own masses of all segments may differ from it."""
-
-
-def _confront_masses(subject: Subject, study: Path) -> None:
-    """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's."""
-    masses = {name: segment.mass for name, segment in subject.segments.items()}
-    if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
-        legs = sum(masses.values()) - masses["trunk"]
-        what = (
-            f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
-        )
-        raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
-
-
 def refuse_stances(trials: StandingUpTrials, study: Path) -> None:
     """InputError for stances of walking, whose one leg has no movement of its own to predict."""
     if trials.one_leg:
@@ -111,6 +96,19 @@ def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
             reserve(
                 f"{other.name}: its coordinates are those of {one.name}; name the files of each trial's own recording"
             )
+        elif ours[0] != theirs[0]:
+            for role in ("rates", "torques", "motors", "strap", "strap_shank", "strap_pelvis"):
+                own, others = (_contents(getattr(each, role)) for each in (one, other))
+                if own & others:
+                    reserve(
+                        f"{other.name}: its {role} is that of {one.name}; name the file of each trial's own recording"
+                    )
+
+
+def _contents(files: Path | Sequence[Path] | None) -> set[str]:
+    """Digests of files that are there."""
+    each = [] if files is None else [files] if isinstance(files, Path) else files
+    return {digest(file) for file in each if file.is_file()}
 
 
 def _known(
@@ -151,7 +149,7 @@ def channels_of(
     place = f"[[trials]] {files.name}"
     require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
-    doubt_knee(files.coordinates, chain, q)
+    doubt_bending(files.coordinates, chain, q, hip_height(subject, q))
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = plates_of_trial(files, place, time, c3d_unit, turn)
     if files.task == "stance" and feet is not None:

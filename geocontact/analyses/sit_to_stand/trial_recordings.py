@@ -37,8 +37,6 @@ FRICTION = 1.0
 Tribol Lett 45:1)."""
 SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
-FORWARD_KNEE = 30.0
-"""Degrees; a knee that is stretched as far as it goes is 10 degrees beyond straight at most."""
 CELL = "r0c0"
 """First cell in a mat's own recording."""
 Times = Float[np.ndarray, " t"]
@@ -61,15 +59,6 @@ def motion_of_file(file: Path, chain: Multibody, role: str) -> tuple[Times, Tabl
     if np.abs(np.diff(table.time) - step).max() > UNEVEN * step:
         raise InputError(file, "", f"frames are not {step:g} s apart everywhere", "fill the gaps")
     return table.time, motion_of(table, chain)
-
-
-def doubt_knee(file: Path, chain: Multibody, values: Table) -> None:
-    """A warning for a knee that bends forwards, flexion being positive."""
-    for coordinate, angle in zip(chain.coordinates, np.degrees(values).T, strict=True):
-        if coordinate.name == "knee" and angle.min() < -FORWARD_KNEE and -angle.min() > angle.max():
-            reserve(
-                f"{file}: knee is {angle.min():.0f} degrees at its least, flexion being positive: is its sign turned?"
-            )
 
 
 def rates_of(file: Path, chain: Multibody, name: str, time: Times) -> Table:

@@ -17,6 +17,7 @@ from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, part_lengths
 from geocontact.standing_up.exoskeleton_torque import parameter_names
+from geocontact.standing_up.person_segments import segments_of
 from geocontact.standing_up.worn_device import PARTS, DeviceMasses, WornDevice, identified_device
 from geocontact.trial_checks.channel_checks import odd_rate
 
@@ -36,6 +37,42 @@ Used = Bool[np.ndarray, " t"]
 def person_of(study: StandingStudy) -> Subject:
     """Who is described, without the exoskeleton."""
     return Subject(study.mass, study.height, sex=study.person.sex, own=study.person.own)
+
+
+SUM = 0.01
+"""Share of body mass by which own masses of all segments may differ from it."""
+OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
+"""Times the table's value for the person's mass and height that an own value may be: a unit of length is 10, an inch
+2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
+WITHIN = {"centre": 1.0, "gyration": 0.7}
+"""Parts of a segment's length that its mass centre and radius of gyration may be; of a rod they are 0.5 and 0.29."""
+
+
+def confront_segments(subject: Subject, study: Path) -> None:
+    """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's.
+
+    A warning for each own value that is far from that of the table for this mass and height, or not within its segment.
+    """
+    masses = {name: segment.mass for name, segment in subject.segments.items()}
+    if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
+        legs = sum(masses.values()) - masses["trunk"]
+        what = (
+            f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
+        )
+        raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
+    usual = segments_of(subject.mass, subject.height, subject.sex, {})
+    for name, values in subject.own.items():
+        segment = subject.segments[name]
+        for key in values:
+            if key in OWN:
+                share, (least, most) = getattr(segment, key) / getattr(usual[name], key), OWN[key]
+                beside = f"{share:.2g} times that of a person of {subject.mass:.3g} kg and {subject.height:.3g} m"
+            else:
+                share, (least, most) = abs(getattr(segment, key)) / segment.length, (0.0, WITHIN[key])
+                beside = f"{share:.2g} times its length"
+            if not least <= share <= most:
+                what = f"{study} [person] {name}: its {key} is {beside}"
+                reserve(f"{what}: is it in its unit, of one leg, and of this person?", cause=True)
 
 
 def worn_device(study: StandingStudy, file: Path) -> WornDevice:

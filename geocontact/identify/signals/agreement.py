@@ -123,6 +123,22 @@ def likely_cause(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t
     return ": is a sign turned?" if course < 0.0 else ""
 
 
+GAIN, TAKEN = 0.2, 0.8
+"""By how much sizes of two curves of one course differ that are spoken of, and part of the squared difference that one
+factor takes away then."""
+
+
+def gain_off(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"]) -> float:
+    """How many times the model a recording is where one factor, and little else, is between them; 1 where not so."""
+    there = np.isfinite(model) & np.isfinite(measured)
+    model, measured = model[there], measured[there]
+    if len(model) < FEWEST or not model.any():
+        return 1.0
+    gain = float(model @ measured / (model @ model))
+    stays, was = float(np.sum((measured - gain * model) ** 2)), float(np.sum((measured - model) ** 2))
+    return gain if gain > 0.0 and max(gain, 1.0 / gain) > 1.0 + GAIN and stays < (1.0 - TAKEN) * was else 1.0
+
+
 def per_phase(
     model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"], step: float, parts: int = 10
 ) -> list[Agreement]:

@@ -239,6 +239,23 @@ def modulus(change_forces: Change, area: float = 1.0, **options: Any) -> Attempt
     return attempt
 
 
+def ball(radius: float) -> Attempt:
+    """Modulus of a ball on a plate whose distance is known: areas within two thresholds, 2 pi R (T - d), R 20 mm."""
+
+    def attempt(folder: Path) -> Lines:
+        time = np.linspace(0.0, 1.0, 41)
+        near = {T: 2.0 * np.pi * 20.0 * (T + 0.5 * np.sin(np.pi * time)) for T in (1.0, 2.0, 4.0)}
+        rows = [(t, T, each[k]) for k, t in enumerate(time) for T, each in near.items()]
+        touched, pressed = folder / "area.csv", folder / "forces.csv"
+        columns = ["time [s]", "threshold [mm]", "area_fixed [mm^2]"]
+        pd.DataFrame(rows, columns=columns).to_csv(touched, index=False)
+        force = 4.0 / 3.0 * 6.8 * (near[4.0] / np.pi) ** 1.5 / 20.0
+        pd.DataFrame({"time [s]": time, "total [N]": force}).to_csv(pressed, index=False)
+        return heard(gc.modulus, area=(touched,), force=pressed, radius=gc.mm(radius), bootstrap=0)
+
+    return attempt
+
+
 def exchange(found: pd.DataFrame) -> None:
     found["medial [N]"], found["lateral [N]"] = found["lateral [N]"].copy(), found["medial [N]"].copy()
 
@@ -325,6 +342,10 @@ FINDINGS: dict[str, Finding] = {
         modulus(lambda found: found.__setitem__("lateral [N]", found["medial [N]"])), "warned: .*is a column copied"
     ),
     "modulus: sides exchanged": Finding(modulus(exchange), "warned: .*if medial and lateral forces were exchanged"),
+    "modulus: a diameter": Finding(ball(40.0), "warned: .*on a radius of 20 mm.* R is 40 mm: is one of them a diam"),
+    "elbow: a stiffness 35 % off": Finding(
+        elbow(times_column("force [N]", 1.35)), "warned: .*times the model's in every trial.*is its stiffness that of"
+    ),
     "modulus: areas in cm²": Finding(modulus(as_it_is, 0.01), "warned: .*largest force over largest area: .*in mm²"),
     "modulus: tested with its own trial": Finding(modulus(as_it_is, again=True), "warned: .*of the trial that was"),
     "knee: sides split at 50 mm": Finding(settled(split="z=50"), "warned: .*all of the force is medial, or all"),
@@ -349,6 +370,8 @@ NEARLY: dict[str, Attempt] = {
     "mat: two frames missing": on_thigh(lambda found: found.drop(index=[20, 21])),
     "mat: a cell 10 % off": on_thigh(times_column("r8c4 [kPa]", 1.1)),
     "modulus": modulus(as_it_is),
+    "modulus: a radius 40 % larger": ball(28.0),
+    "elbow: a stiffness 15 % off": elbow(times_column("force [N]", 1.15)),
     "knee": settled(),
 }
 KNOWN = "no sensitivities where there is no force|has another centre"

@@ -99,6 +99,16 @@ def test_an_intact_foot_on_spheres_is_tested_as_well() -> None:
         assert doubt.contradicts and doubt.what.startswith(f"{words} of the intact foot: R² is -0.40")
 
 
+@pytest.mark.parametrize(("rmsd", "doubted"), [(0.054, False), (0.1, False), (0.119, True), (0.135, True)])
+def test_a_foot_in_another_setting_is_doubted(rmsd: float, doubted: bool) -> None:
+    """Figures of the shipped trial, of its medium setting: in medium, on the limit, in low and in high."""
+    good, own = Agreement(0.1, 0.1, 0.0, 0.9, 0.0, 0.9, 101), Agreement(rmsd, rmsd, 0.0, 0.79, 0.0, 0.9, 101)
+    errors = {("prosthesis", "resultant"): own, ("prosthesis", "cop_x"): good}
+    fit = goodness_of(errors, MarkerErrors(0.002, 0.006, "RASI", 0.1))
+    assert fit.outcome == ("doubtful" if doubted else "fits")
+    assert not doubted or "is it this foot, in this setting" in fit.words
+
+
 @pytest.mark.slow
 def test_the_foot_of_a_law_is_raised_and_turned(tmp_path: Path) -> None:
     """As `prosthesis simulate` does with the same file: the middle of the keel 4 mm up, its pitch -0.012 rad."""

@@ -31,7 +31,7 @@ from geocontact.analyses.misalignment.compare.pairs import (
 )
 from geocontact.analyses.misalignment.compare.show import channel_curves, comparison_page
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_many_r2
-from geocontact.identify.signals.agreement import clock_off, clock_words, likely_cause
+from geocontact.identify.signals.agreement import clock_off, clock_words, gain_off, likely_cause
 from geocontact.view.curves.declared import CurveSheet
 from geocontact.view.curves.drawn import drawn
 from geocontact.view.page.tables import frame_table
@@ -113,8 +113,14 @@ def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
         mine = [p for p in pairs if p.channel == channel]
         causes = [likely_cause(p.model, p.measured) for p in mine if p.agreement.r2 < 0.0]
         asked = next(filter(None, causes), "")
-        found = of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine})
+        found = list(of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine}))
         doubts += [replace(each, what=f"{each.what}{asked}") for each in found]
+        gains = [gain_off(p.model, p.measured) for p in mine]
+        if mine and not found and 1.0 not in gains:
+            least, most = min(gains), max(gains)
+            size = f"{least:.2f}" if most - least < 0.005 else f"{least:.2f} to {most:.2f}"
+            what = f"{channel}: recorded values are {size} times the model's in every trial, and little else differs"
+            doubts.append(Doubt(f"{what}: is its stiffness that of this cuff, or the sensor's gain another?", False))
         for p in mine:
             if lag := clock_off(p.model, p.measured, float(p.time[1] - p.time[0])):
                 doubts.append(Doubt(f"{p.trial}, {channel}: {clock_words(lag)}", False, abs(lag)))

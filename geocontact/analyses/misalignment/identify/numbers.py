@@ -23,7 +23,7 @@ from geocontact.analyses.misalignment.identify.fitted import Fitted, Free
 from geocontact.analyses.misalignment.identify.options import IdentifyOptions
 from geocontact.analyses.misalignment.identify.tracking import read_scores
 from geocontact.analyses.misalignment.law_numbers import MMHG, PER_SI, WRITTEN
-from geocontact.analyses.misalignment.recordings import SLID, recordings
+from geocontact.analyses.misalignment.recordings import SLID, doubt_moments, recordings
 from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.axis_misalignment import bins, compensation, explicit, known_by_sensor, least_squares, uncertainty
 from geocontact.axis_misalignment.law import ABSENT, NAMES, UNITS
@@ -142,6 +142,7 @@ def read(o: IdentifyOptions) -> IdentifyInputs:
     _require_locked(o.held_out or (), apart)
     free = _recordings("unlocked", o.unlocked or (), o, (FORCE, DISPLACEMENT))
     _require_free(o.unlocked or (), free)
+    doubt_moments(o.recordings, locked)
     check_apart(
         {r.name: np.column_stack([r.beta, r.force]) for r in (*locked, *apart, *free)},
         "intervals are too short, and errors of what is held out too small",

@@ -86,7 +86,9 @@ def worn_along(
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     mass = o.mass if mass is None else mass
     on = StandsOn() if mass is None else standing_on(seen, o.markers, turn_of(o.axes), o.c3d_unit)
-    trial = TrialInputs(seen, None, on.plates, mass, mass_option=mass_option, turn=turn_of(o.axes))
+    arm = None if o.person is None else wearer.upper_arm
+    given = TrialInputs(mass=mass, height=o.height, upper_arm=arm, mass_option=mass_option)
+    trial = replace(given, markers=seen, plates=on.plates, turn=turn_of(o.axes))
     check_trial(replace(trial, stands_at=on.stands_at, surely=on.surely))
     settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)
     found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)

@@ -15,6 +15,8 @@ from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
+from geocontact.analyses.sit_to_stand.standing_trials import JOINTS, UPRIGHT
 from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
@@ -25,6 +27,8 @@ from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed, read_table
+from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.movements import hip_height
 from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, planar_motion
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 
@@ -67,15 +71,34 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
         raise InputError(o.model, "", str(error), "are `joints` those of hip, knee and ankle?") from error
     moved = replace(moved, q=moved.q + np.outer(o.belt * time, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
     whole = MovedModel(model, time, values, str(o.motion))
+    subject = Subject()  # where the hip is lowest does not depend on lengths
+    doubt_bending(o.motion, leg_chain(subject), moved.q, hip_height(subject, moved.q))
     if o.plates is None or o.feet is None:
-        check_trial(TrialInputs(moved=whole))
+        check_trial(TrialInputs(height=o.height, moved=whole))
         return PlanarRecording(time, moved, model.mass)
     turn = turn_of(o.axes)
     under, seat = _plates(o.plates, o.feet, time, turn, o)
-    check_trial(TrialInputs(plates=tuple(FootPlate(each, str(o.plates)) for each in under), turn=turn, moved=whole))
+    plates = tuple(FootPlate(each, str(o.plates)) for each in (*under, *seat))
+    check_trial(
+        TrialInputs(
+            plates=plates,
+            mass=model.mass,
+            height=o.height,
+            mass_option="the model's mass",
+            stands_at=_stands_at(time, moved) if o.leg == "both" else None,
+            turn=turn,
+            moved=whole,
+        )
+    )
     clock = under[0].time
     feet = _load(under, clock, moved, o.belt)
     return PlanarRecording(time, moved, model.mass, clock, feet, _load(seat, clock, moved, o.belt) if seat else None)
+
+
+def _stands_at(time: Times, moved: PlanarMotion) -> float | None:
+    """When the person stands upright, at the end or at the beginning [s]; None where neither is so."""
+    upright = [k for k in (-1, 0) if np.abs(moved.q[k, JOINTS]).max() < UPRIGHT]
+    return float(time[upright[0]]) if upright else None
 
 
 def _motion(model: Multibody, o: StandingCoordinatesOptions) -> tuple[Times, Float[np.ndarray, "t n"]]:

@@ -31,9 +31,10 @@ from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import COORDINATES, Subject
-from geocontact.standing_up.movements import TASKS, hip_height, movements_of
+from geocontact.standing_up.movements import TASKS, contradiction, hip_height, movements_of
 from geocontact.standing_up.person_segments import SHARES
 from geocontact.standing_up.stance import JERK, SIZES, off_the_foot, smooth, stances
+from geocontact.trial_checks.body_checks import LEG_OFF
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade
 from geocontact.view.page.content import Section
 from geocontact.view.page.tables import frame_table
@@ -215,6 +216,9 @@ def _movements(given: PlanarRecording, height: float) -> tuple[TaskSpan, ...]:
     if given.chair is not None and given.clock is not None:
         seat = np.interp(given.time, given.clock, np.abs(given.chair[:, 1]))
     found = movements_of(given.time, hip_height(person, given.moved.q), seat, squats=seat is None)
+    for k, one in enumerate(found, 1):
+        if not one.agrees:
+            reserve(f"T{k}, {one.kind}: {contradiction(one)}: is it the chair's plate, and no foot's, with its zero?")
     return tuple(TaskSpan(f"T{k}", TASKS.get(one.kind, one.kind), one.start, one.end) for k, one in enumerate(found, 1))
 
 
@@ -222,7 +226,10 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     """The motion in the plane, and how far it is out of it."""
     own, share = given.moved.own, SHARES["male"]
     lower = own["shank"]["length"] + own["thigh"]["length"]
-    height = lower / (share["shank"].length + share["thigh"].length) if o.height is None else o.height
+    by_legs = lower / (share["shank"].length + share["thigh"].length)
+    height = by_legs if o.height is None else o.height
+    if abs(by_legs / height - 1.0) > LEG_OFF:
+        reserve(f"`height`: {height:.2f} m, and by shank and thigh of {o.model.name} {by_legs:.2f} m: of one person?")
     result = StandingCoordinatesResult(options=o, given=given, height=height, spans=_spans(given, height, o))
     table = result.table("deviations")
     out, apart = (table[table["what"] == what] for what in ("out of the plane", "right less left"))

@@ -26,8 +26,9 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
 from geocontact.analyses.sit_to_stand.show import motion_page
-from geocontact.analyses.sit_to_stand.trial_recordings import chair_force, doubt_knee, motion_of_file, require_one_clock
+from geocontact.analyses.sit_to_stand.trial_recordings import chair_force, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
@@ -75,15 +76,15 @@ def read(o: StandingMovementsOptions) -> StandingRecording:
     subject = Subject(height=o.height)
     chain = leg_chain(subject)
     time, q = motion_of_file(o.coordinates, chain, "`coordinates`")
-    doubt_knee(o.coordinates, chain, q)
     height = hip_height(subject, q)
+    doubt_bending(o.coordinates, chain, q, height)
     if o.plates is None or o.chair is None:
         return StandingRecording(time, height, None)
     plates = read_force_plates(o.plates, o.c3d_unit)
     add_input("`plates`", o.plates, plates=len(plates))
     plate = plate_named(plates, o.chair, o.plates, "`chair`")
-    if o.feet is not None:
-        plate_named(plates, o.feet, o.plates, "`feet`")
+    if o.feet is not None and plate_named(plates, o.feet, o.plates, "`feet`") is plate:
+        raise InputError("", "`feet`", f"{o.feet} is the chair's plate as well", "name each plate once")
     require_one_clock(o.plates, plate, time)
     return StandingRecording(time, height, np.interp(time, plate.time, chair_force(plate)))
 
