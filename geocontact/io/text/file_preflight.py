@@ -239,6 +239,20 @@ def lines(data: bytes, start: int = 0) -> Iterator[bytes]:
         start = stop
 
 
+def lines_in(stream: BinaryIO, longest: int) -> Iterator[bytes]:
+    """The same of an open file, a block at a time; of a line beyond `longest` bytes its beginning, as one that is."""
+    rest = b""
+    while piece := stream.read(BLOCK):
+        rest += piece
+        cut = 1 + max(rest.rfind(b"\n"), rest.rfind(b"\r", 0, -1))  # a CR at the end may be half of CR LF
+        yield from rest[:cut].splitlines()
+        rest = rest[cut:]
+        if len(rest) > longest:
+            yield rest
+            rest = b""
+    yield from rest.splitlines()
+
+
 def is_number(word: bytes) -> bool:
     """Whether a word is a number; `nan` and `inf` are, Python's `1_000` is not."""
     try:
