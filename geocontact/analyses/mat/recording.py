@@ -292,7 +292,9 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
             what = f"has other cells or times than {o.frames.name}"
             raise InputError(file, role, what, "export pressure and shear of the same frames")
         for other in [recorded.pressure, *raw]:
-            if read.pressure.any() and np.array_equal(read.pressure, other, equal_nan=True):
+            if any(part.any() for (part,) in parts(read.pressure)) and all(
+                np.array_equal(one, another, equal_nan=True) for one, another in parts(read.pressure, other)
+            ):
                 kind = "the pressure" if other is recorded.pressure else "the other shear"
                 raise InputError(file, role, f"its values are those of {kind}", "give the files of both shear stresses")
         raw.append(read.pressure)
