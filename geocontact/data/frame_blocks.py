@@ -16,14 +16,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from tempfile import TemporaryFile, gettempdir
 from typing import IO, Any
-from weakref import WeakSet
+from weakref import WeakSet, finalize
 
 import numpy as np
 
 from geocontact.data.errors import InputError
 
-AT_ONCE = 1 << 21
-"""Values of a part: 16 MB."""
+AT_ONCE = 1 << 18
+"""Values of a part: 2 MB."""
 
 _MAPPED: WeakSet[mmap.mmap] = WeakSet()
 
@@ -102,7 +102,9 @@ class Growing:
         return _mapped(self._file, np.dtype(float))
 
     def _put_away(self) -> None:
-        self._file = self._file or TemporaryFile()  # noqa: SIM115 - closed with its last reader
+        if self._file is None:
+            self._file = TemporaryFile()  # noqa: SIM115 - closed with this object; what is mapped of it stays
+            finalize(self, self._file.close)
         with _space(8 * len(self)):
             self._near.tofile(self._file)
         self._before += len(self._near)
