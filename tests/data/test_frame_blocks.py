@@ -89,5 +89,5 @@ def test_lines_of_a_file_are_those_of_its_bytes(monkeypatch: pytest.MonkeyPatch)
     """Ends of all kinds, one of them between two blocks; of a line that is too long its beginning comes."""
     monkeypatch.setattr(file_preflight, "BLOCK", 4)
     for data in (b"ab\r\ncd\r\n\r\nefghijk\rl\nm", b"abc\r\nd", b"abc\rd\r", b"\n\n", b""):
-        assert list(file_preflight.lines_in(BytesIO(data), 20)) == data.splitlines()
-    assert len(next(file_preflight.lines_in(BytesIO(b"x" * 100), 20))) in range(21, 25)
+        assert list(file_preflight.lines_in(BytesIO(data).read, 20)) == data.splitlines()
+    assert len(next(file_preflight.lines_in(BytesIO(b"x" * 100).read, 20))) in range(21, 25)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import csv
 import re
 from codecs import getincrementaldecoder
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from os import fspath
 from pathlib import Path
-from typing import BinaryIO
 
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import Growing
@@ -72,7 +71,7 @@ class MatText:
     def lines(self) -> Iterator[tuple[int, str]]:
         """Number and text of every line that is not blank, without blanks around it; tabs at its end are cells."""
         with open_file(self.file) as stream:
-            for number, line in enumerate(lines_in(stream, LONGEST_LINE), 1):
+            for number, line in enumerate(lines_in(stream.read, LONGEST_LINE), 1):
                 own = line.removeprefix(BYTE_ORDER_MARK) if number == 1 else line
                 if len(own) > LONGEST_LINE:
                     raise InputError(self.file, f"line {number}", "is too long", "is this the export of a mat?")
@@ -85,7 +84,7 @@ def read_mat_text(path: Path) -> MatText:
     file = fspath(path)
     with open_file(path, LARGEST_RECORDING, "export it in parts") as stream:
         start = stream.read(HEAD + len(BYTE_ORDER_MARK)).removeprefix(BYTE_ORDER_MARK)
-        blank, binary, encoding = _surveyed(start, stream)
+        blank, binary, encoding = _surveyed(start, stream.read)
     if blank:
         raise InputError(file, "", "the file is empty", "export it again")
     what, _ = looks_like(start)
@@ -97,11 +96,11 @@ def read_mat_text(path: Path) -> MatText:
     return MatText(file, start[:HEAD], len(start) < HEAD, encoding)
 
 
-def _surveyed(start: bytes, stream: BinaryIO) -> tuple[bool, bool, str]:
+def _surveyed(start: bytes, read: Callable[[int], bytes]) -> tuple[bool, bool, str]:
     """Whether a file is blank, whether it has a NUL, and its encoding, from its first bytes and what follows."""
     blank, binary, encoding = True, False, "utf-8"
     decoder = getincrementaldecoder("utf-8")()
-    for piece in chain([start], iter(lambda: stream.read(PIECE), b""), [b""]):
+    for piece in chain([start], iter(lambda: read(PIECE), b""), [b""]):
         blank, binary = blank and not piece.strip(), binary or b"\0" in piece
         try:
             if encoding == "utf-8":
