@@ -146,7 +146,7 @@ def _check(step: float, cutoff: float) -> None:
 def _both_ways(
     values: Float[np.ndarray, "t ..."], step: float, corner: float, order: int, mirrored: int | None = None
 ) -> Float[np.ndarray, "t ..."]:
-    """As `scipy.signal.sosfiltfilt`, operation by operation, a part of the time after the other.
+    """The operations of `scipy.signal.sosfiltfilt` one by one, a part of the time after the other.
 
     The state of the filter at the end of a part is that at the beginning of the next, so that parts have no borders:
     the values are those of the whole, to the last digit.
