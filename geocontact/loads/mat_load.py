@@ -149,7 +149,16 @@ def mat_load(
     force, moment, centre = each[:, :3], each[:, 3:6] - np.cross(origin, each[:, :3]), each[:, 6:9]
     normal = _facing(placed.force[use], placed.area[use])
     at = np.broadcast_to(np.asarray(origin, float), force.shape)
-    return MatLoad(Wrench(force, moment, at, frame), each[:, 9], -(force @ normal), normal, *each[:, 10:].T, centre)
+    return MatLoad(
+        Wrench(force, moment, at, frame),
+        each[:, 9],
+        -(force @ normal),
+        normal,
+        each[:, 10],
+        each[:, 11],
+        each[:, 12],
+        centre,
+    )
 
 
 def _sizes(

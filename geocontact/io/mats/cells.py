@@ -78,7 +78,7 @@ class MatRecording:
 
     file: str
     name: str
-    time: Sequence[float] | None
+    time: Sequence[float] | Float[np.ndarray, " t"] | None
     lines: Sequence[int]
     values: Growing | Float[np.ndarray, " n"]
     unit: float | None = None
