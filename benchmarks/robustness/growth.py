@@ -1,9 +1,10 @@
-"""How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER`, 10 CPU minutes.
+"""How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER`, 12 CPU minutes.
 
 Synthetic inputs of four sizes for each command; CPU seconds and peak memory of a process of its own, on one thread,
-kernels compiled before. A slope is that of a straight line through the logarithms of the larger three sizes, after
-what the smallest takes has been subtracted: 1 where each further row costs the same. Writes results/growth.json,
-in which commands that were not run stay as they were.
+kernels compiled before. The slope of CPU time is that of a straight line through the logarithms of the larger three
+sizes, after what the smallest takes has been subtracted: 1 where each further row costs the same. That of memory is
+through all four sizes, the program with them: 0 where memory does not grow. Writes results/growth.json, in which
+commands that were not run stay as they were, and prints the table of docs/reference/speed.md.
 """
 
 from __future__ import annotations
@@ -12,14 +13,17 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from benchmarks.machine import write_results
 from benchmarks.one_core import THREADS
+from meshes.simple_shapes import sphere
+from meshes.stl import stl_bytes
 
 ROOT = Path(__file__).resolve().parents[2]
 MESHES = ROOT / "meshes"
@@ -95,6 +99,29 @@ def mat(folder: Path, n: int) -> list[str]:
     return ["mat", "frames.csv", *places, *surface]
 
 
+def insole(folder: Path, n: int) -> list[str]:
+    """A mat of 4 x 4 cells on a plate, at 100 Hz: a press each second that wanders, 0.1 kPa of noise (seed 58)."""
+    (folder / "layout.toml").write_text('rows = 4\ncolumns = 4\npitch_mm = 10\nunit = "kPa"\norder = "row"\n', "utf-8")
+    marks = "a,0,0,20,30,0\nb,4,0,60,30,0\nc,0,4,20,70,0\nd,4,4,60,70,0\n"
+    (folder / "landmarks.csv").write_text(f"id, row, column, x [mm], y [mm], z [mm]\n{marks}", "utf-8")
+    corners = [f"v {x} {y} 0" for x in range(0, 101, 20) for y in range(0, 101, 20)]
+    at = [6 * a + b + 1 for a in range(5) for b in range(5)]
+    halves = [f"f {k} {k + 6} {k + 7}\nf {k} {k + 7} {k + 1}" for k in at]
+    (folder / "plate.obj").write_text("\n".join([*corners, *halves]) + "\n", "utf-8")
+    row, column = np.divmod(np.arange(16), 4)
+    noise = np.random.default_rng(58)
+
+    def made(k: np.ndarray) -> np.ndarray:
+        time_ = 0.01 * k[:, None]
+        place = 1.5 + np.sin(0.7 * time_)
+        press = 40.0 * np.abs(np.sin(np.pi * time_)) * np.exp(-((row - place) ** 2) - 0.3 * (column - 1.5) ** 2)
+        return np.column_stack([time_, press + 0.1 * noise.standard_normal(press.shape)])
+
+    rows_of(folder / "frames.csv", ",".join(["time [s]", *map(str, range(1, 17))]), n, made, "%.7g")
+    places = ["--layout", "layout.toml", "--landmarks", "landmarks.csv"]
+    return ["mat", "frames.csv", *places, "--surface", "plate.obj", "--unit", "mm"]
+
+
 def area(folder: Path, n: int) -> list[str]:
     """Frames of the shipped coarse knee: the sample of a gait cycle over and over."""
     lines = (MESHES / "gait.csv").read_text(encoding="utf-8").splitlines()
@@ -107,6 +134,23 @@ def area(folder: Path, n: int) -> list[str]:
     rows_of(folder / "motion.csv", "\n".join(lines[: head + 1]), n, made, "%.9g")
     bodies = [str(MESHES / f"{name}_right_coarse.stl") for name in ("femoral_component", "tibial_insert")]
     return ["area", *bodies, "--unit", "mm", "--motion", "motion.csv", "--workers", "1"]
+
+
+def balls(folder: Path, n: int) -> list[str]:
+    """One pose of two balls of n faces each, of 18 and 20 mm, 0.5 mm apart."""
+    for radius in (18, 20):
+        ball(folder, n, radius)
+    pose = "time [s],tx [mm],ty [mm],tz [mm],rx [deg],ry [deg],rz [deg]\n0,0,38.5,0,0,0,0\n"
+    (folder / "motion.csv").write_text(pose, "utf-8")
+    options = ["--unit", "mm", "--motion", "motion.csv", "--order", "XYZ", "--workers", "1"]
+    return ["area", "ball18.stl", "ball20.stl", *options]
+
+
+def ball(folder: Path, n: int, radius: int = 20) -> list[str]:
+    """A ball of about n faces."""
+    vertices, faces = sphere(float(radius), round((n / 20) ** 0.5))
+    (folder / f"ball{radius}.stl").write_bytes(stl_bytes(vertices, faces, "ball"))
+    return ["fit", f"ball{radius}.stl", "--shape", "sphere", "--unit", "mm"]
 
 
 def swing(folder: Path, n: int) -> list[str]:
@@ -129,6 +173,13 @@ def ik(folder: Path, n: int) -> list[str]:
     return ["ik", "virtual/markers.trc", "--model", str(MESHES / "leg.osim")]
 
 
+def joint(folder: Path, n: int) -> list[str]:
+    """The axis of the knee from its markers."""
+    run(folder, [*swing(folder, n), "--out", "virtual"])
+    markers = ["--first", "femur_r0,femur_r1,femur_r2", "--second", "tibia_r0,tibia_r1,tibia_r2"]
+    return ["joint", "virtual/markers.trc", "--axis", *markers]
+
+
 def inverse_dynamics(folder: Path, n: int) -> list[str]:
     """Its coordinates."""
     return ["id", *swing(folder, n)[1:]]
@@ -136,14 +187,18 @@ def inverse_dynamics(folder: Path, n: int) -> list[str]:
 
 COMMANDS: dict[str, tuple[Callable[[Path, int], list[str]], tuple[int, ...]]] = {
     "loadcells": (loadcells, (1_000, 10_000, 100_000, 1_000_000)),
-    "cop": (cop, (1_000, 10_000, 100_000, 1_000_000)),
-    "mat": (mat, (1_000, 10_000, 100_000, 360_000)),
+    "cop": (cop, (1_000, 10_000, 30_000, 100_000)),
+    "mat": (mat, (1_000, 10_000, 40_000, 100_000)),
+    "mat, 16 cells": (insole, (10_000, 40_000, 90_000, 360_000)),
     "area": (area, (11, 101, 303, 1_010)),
+    "area, faces": (balls, (2_000, 8_000, 32_000, 128_000)),
+    "fit": (ball, (2_000, 8_000, 32_000, 128_000)),
     "markers": (swing, (1_000, 10_000, 30_000, 100_000)),
-    "ik": (ik, (1_000, 10_000, 30_000, 100_000)),
-    "id": (inverse_dynamics, (1_000, 10_000, 30_000, 100_000)),
+    "joint": (joint, (300, 1_000, 3_000, 10_000)),
+    "ik": (ik, (300, 1_000, 3_000, 10_000)),
+    "id": (inverse_dynamics, (1_000, 4_000, 10_000, 40_000)),
 }
-"""Inputs of each command, and their sizes: rows or frames."""
+"""Inputs of each command, and their sizes: rows, frames or faces."""
 
 
 def run(folder: Path, words: Sequence[str]) -> tuple[float, float]:
@@ -177,7 +232,7 @@ def slope(sizes: Sequence[int], values: Sequence[float]) -> float:
 
 
 def table(runs: Sequence[Run]) -> list[dict[str, object]]:
-    """For each command: its runs, the slope of CPU time, and memory for each further row [kB]."""
+    """For each command: its runs, the slopes of CPU time and of memory, and memory for each further row [kB]."""
     found: list[dict[str, object]] = []
     for command in dict.fromkeys(run.command for run in runs):
         own = [run for run in runs if run.command == command]
@@ -188,10 +243,29 @@ def table(runs: Sequence[Run]) -> list[dict[str, object]]:
                 "command": command,
                 "runs": [asdict(run) for run in own],
                 "cpu_slope": slope(sizes, [run.cpu_s for run in own]),
+                "memory_slope": float(np.polyfit(np.log(sizes), np.log([run.peak_mb for run in own]), 1)[0]),
                 "memory_kb_each": round(memory, 3),
             }
         )
     return found
+
+
+COLUMNS = {"n": "{}", "cpu_s": "{:.1f}", "peak_mb": "{:.0f}"}
+
+
+def lines(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """The table of the page: what the four sizes take, one after the other."""
+    head = ["| command | sizes | CPU s | peak MB | slopes: CPU/memory |", "|---|---|---|---|---|"]
+    for each in found:
+        runs = each["runs"]
+        cells = ["/".join(form.format(run[key]) for run in runs) for key, form in COLUMNS.items()]
+        cells.append(f"{_two(each['cpu_slope'])}/{_two(each['memory_slope'])}")
+        head.append(f"| `{each['command']}` | {' | '.join(cells)} |")
+    return head
+
+
+def _two(value: float | None) -> str:
+    return "–" if value is None or not np.isfinite(value) else f"{value:.2f}"
 
 
 def main() -> None:
@@ -204,12 +278,14 @@ def main() -> None:
     runs = []
     for command in given.only:
         for n in (size for size in COMMANDS[command][1] if size <= given.largest):
-            runs.append(measured(command, n, given.folder.resolve() / f"{command}_{n}"))
+            runs.append(measured(command, n, given.folder.resolve() / f"{command.replace(', ', '_')}_{n}"))
             print(json.dumps(asdict(runs[-1])), flush=True)
     before = json.loads(KEPT.read_text(encoding="utf-8"))["figures"] if KEPT.exists() else []
-    found = {each["command"]: each for each in [*before, *table(runs)]}
+    kept = [Run(**one) for each in before if each["command"] not in given.only for one in each["runs"]]
+    found: dict[object, Mapping[str, Any]] = {each["command"]: each for each in table([*kept, *runs])}
     ordered = [found[command] for command in COMMANDS if command in found]
     print(write_results("growth", {"largest": given.largest}, ordered, {"numpy", "pandas", "scipy", "numba"}))
+    print("\n".join(lines(ordered)))
 
 
 if __name__ == "__main__":

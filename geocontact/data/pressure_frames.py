@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.frame_blocks import blocks
+from geocontact.data.frame_blocks import parts, worked
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -46,8 +46,7 @@ class PressureFrames:
             raise ValueError(f"{self.name}: times of the frames must increase")
         if not min(self.pitch) > 0.0 or not (self.cell_area[self.valid] > 0.0).all():
             raise ValueError(f"{self.name}: pitch and cell area must be positive")
-        parts = blocks(len(self.pressure), self.valid.size)
-        if not all(np.isfinite(self.pressure[some][:, self.valid]).all() for some in parts):
+        if not all(np.isfinite(part[:, self.valid]).all() for (part,) in parts(self.pressure)):
             raise ValueError(f"{self.name}: pressures of valid cells must be finite")
 
     def __repr__(self) -> str:
@@ -68,10 +67,9 @@ class PressureFrames:
     @cached_property
     def saturated(self) -> Bool[np.ndarray, "t r c"]:
         """Cells that clip: at or above the saturation level."""
-        return np.asarray(self.pressure >= self.saturation)
+        return worked(lambda part: part >= self.saturation, self.pressure)
 
     @cached_property
     def force(self) -> Float[np.ndarray, " t"]:
         """Sum of pressure times cell area [N], whichever way the cells look."""
-        parts = blocks(len(self.pressure), self.valid.size)
-        return np.concatenate([np.nansum(self.pressure[some] * self.cell_area, axis=(1, 2)) for some in parts])
+        return worked(lambda part: np.nansum(part * self.cell_area, axis=(1, 2)), self.pressure)

@@ -21,13 +21,21 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from geocontact.data.frame_blocks import blocks, release, room
 from geocontact.data.version import VERSION
 from geocontact.io.text.units import split_header
 
 
 def write_parquet(table: pd.DataFrame, file: Path) -> None:
-    """Write it; columns keep their names, units included."""
-    table.to_parquet(file, index=False)
+    """Write it, some rows at a time; columns keep their names, units included."""
+    import pyarrow as pa
+    from pyarrow.parquet import ParquetWriter
+
+    schema = pa.Schema.from_pandas(table, preserve_index=False)
+    with ParquetWriter(file, schema) as out:
+        for some in blocks(len(table), table.shape[1]):
+            out.write_table(pa.Table.from_pandas(table.iloc[some], schema, preserve_index=False))
+            release()
 
 
 TIME = "time ["
@@ -82,7 +90,8 @@ def write_netcdf(table: pd.DataFrame, file: Path, about: Mapping[str, str]) -> N
         shape = tuple(table[axis].nunique() for axis in axes) or (len(table),)
         for column in map(str, table.columns):
             if column not in axes:
-                _write(out, names[column], column, table[column].to_numpy().reshape(shape), dimensions)
+                values = table[column].to_numpy().reshape(shape)
+                _write(out, names[column], column, values, dimensions, each=table.shape[1])
 
 
 def variable_names(columns: Iterable[object]) -> dict[str, str]:
@@ -95,8 +104,10 @@ def variable_names(columns: Iterable[object]) -> dict[str, str]:
     }
 
 
-def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tuple[str, ...]) -> None:
-    """A variable with its unit; text as characters, truth as 0 and 1."""
+def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tuple[str, ...], each: int = 1) -> None:
+    """A variable with its unit; text as characters, truth as 0 and 1. Rows of `each` values lie in memory, or in a
+    file, beside each other.
+    """
     if values.dtype.kind not in "fiub":
         values = np.char.encode(np.array([text_of_cell(value) for value in values.ravel()]), "utf-8").reshape(
             values.shape
@@ -109,7 +120,11 @@ def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tup
     else:
         kind = "b" if values.dtype.kind == "b" else "d" if _needs_double(values) else "i"
         variable = out.createVariable(name, kind, dimensions)
-        variable[:] = values
+        if values.size:
+            variable.data = room(values.shape, variable.data.dtype)
+        for some in blocks(len(values), each * values[:1].size):
+            variable.data[some] = values[some]
+            release()
     unit = split_header(column)[1]
     variable.long_name = column
     if unit:

@@ -17,9 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.data.frame_blocks import parts, worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.data.wrench import Wrench
-from geocontact.loads.mat_load import TOUCHED
+from geocontact.loads.mat_load import COVARIANCE, TOUCHED
 from geocontact.loads.mat_map import MatMap
 
 FEWEST_FRAMES = 10  # of a recording
@@ -50,9 +51,11 @@ def dead_cells(frames: PressureFrames, touched: float = TOUCHED) -> Bool[np.ndar
         return dead
     from scipy.ndimage import binary_dilation, label
 
-    pressure = frames.pressure if frames.valid.all() else np.where(frames.valid, frames.pressure, 0.0)
-    lowest = pressure.min(axis=0)
-    rise = pressure.max(axis=0) - lowest
+    pressure = frames.pressure
+    if not frames.valid.all():
+        pressure = worked(lambda part: np.where(frames.valid, part, 0.0), pressure)
+    lowest, highest = _ends(pressure)
+    rise = highest - lowest
     largest = float(rise.max(initial=0.0))
     high = pressure[0] >= max(touched, STUCK * largest)
     still = frames.valid & (rise == 0.0)
@@ -66,13 +69,27 @@ def dead_cells(frames: PressureFrames, touched: float = TOUCHED) -> Bool[np.ndar
             around = binary_dilation(group, NEIGHBOURING) & frames.valid & ~group
             if group.sum() > MOST or around.sum() < AROUND:
                 continue
-            pressed = (pressure[:, around] - lowest[around] >= level).all(axis=1)
-            quiet = (pressure[:, around] < touched).all(axis=1)
-            if pressed.sum() >= TOGETHER:
+            pressed, quiet = 0, False
+            for (part,) in parts(pressure):
+                pressed += int((part[:, around] - lowest[around] >= level).all(axis=1).sum())
+                quiet = quiet or bool((part[:, around] < touched).all(axis=1).any())
+            if pressed >= TOGETHER:
                 dead |= group & _flanked(group, around)
-            elif quiet.any() and largest > 0.0:
+            elif quiet and largest > 0.0:
                 dead |= group & high
     return dead
+
+
+def _ends(
+    pressure: Float[np.ndarray, "t r c"], chosen: Bool[np.ndarray, " t"] | None = None
+) -> tuple[Float[np.ndarray, "r c"], Float[np.ndarray, "r c"]]:
+    """Lowest and highest reading of each cell, in the chosen frames; endless where none is."""
+    counted = np.ones(len(pressure), bool) if chosen is None else chosen
+    each = [
+        (part[some].min(axis=0, initial=np.inf), part[some].max(axis=0, initial=-np.inf))
+        for part, some in parts(pressure, counted)
+    ]
+    return np.min([low for low, _ in each], axis=0), np.max([high for _, high in each], axis=0)
 
 
 def _restless(pressure: Float[np.ndarray, "t r c"], valid: Bool[np.ndarray, "r c"], level: float) -> bool:
@@ -80,8 +97,11 @@ def _restless(pressure: Float[np.ndarray, "t r c"], valid: Bool[np.ndarray, "r c
 
     Looked at in the third of the frames with the smallest force, in the cells that change by less than `level` [Pa].
     """
-    order = np.argsort(pressure.sum(axis=(1, 2)), kind="stable")
-    change = np.ptp(pressure[order[: len(order) // 3]], axis=0)
+    order = np.argsort(worked(lambda part: part.sum(axis=(1, 2)), pressure), kind="stable")
+    quiet = np.zeros(len(pressure), bool)
+    quiet[order[: len(order) // 3]] = True
+    lowest, highest = _ends(pressure, quiet)
+    change = highest - lowest
     free = valid & (change < level)
     return bool(free.sum() >= FREE and (change[free] > 0.0).mean() >= RESTLESS)
 
@@ -160,10 +180,14 @@ def holes(
 
 def filled(pressure: Float[np.ndarray, "t r c"], gaps: tuple[Hole, ...]) -> Float[np.ndarray, "t r c"]:
     """Pressures [Pa] with the holes filled."""
-    whole = pressure.copy()
-    for hole in gaps:
-        whole[:, hole.cell[:, 0], hole.cell[:, 1]] = hole.of(pressure)
-    return whole
+
+    def of_part(part: Float[np.ndarray, "t r c"]) -> Float[np.ndarray, "t r c"]:
+        whole = part.copy()
+        for hole in gaps:
+            whole[:, hole.cell[:, 0], hole.cell[:, 1]] = hole.of(part)
+        return whole
+
+    return worked(of_part, pressure)
 
 
 def filling_covariance(
@@ -174,12 +198,16 @@ def filling_covariance(
     Cells of one hole are off together, by the hole's share of what they are filled with; holes are independent.
     """
     own = np.concatenate([placed.force, placed.moment - np.cross(wrench.origin[0], placed.force)], axis=1)
-    total = np.zeros((len(pressure), 6, 6))
-    for hole in gaps:
-        inside = (placed.cell[:, None] == hole.cell[None]).all(axis=2).any(axis=1)
-        off = hole.share * (pressure[:, inside] @ own[inside])
-        total += off[:, :, None] * off[:, None, :]
-    return total
+    inside = [(placed.cell[:, None] == hole.cell[None]).all(axis=2).any(axis=1) for hole in gaps]
+
+    def of_part(part: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t six six"]:
+        total = np.zeros((len(part), 6, 6))
+        for hole, cells in zip(gaps, inside, strict=True):
+            off = hole.share * (part[:, cells] @ own[cells])
+            total += off[:, :, None] * off[:, None, :]
+        return total
+
+    return worked(of_part, pressure, each=COVARIANCE)
 
 
 def _hole(cell: Int[np.ndarray, "k 2"], works: Bool[np.ndarray, "r c"], pitch: tuple[float, float]) -> Hole | None:
@@ -227,7 +255,8 @@ def _share(
         hole = _hole(there, rest, pitch)
         if hole is None:
             continue
-        guess = hole.of(pressure)
-        off += float(np.square(guess - pressure[:, there[:, 0], there[:, 1]]).sum())
-        told += float(np.square(guess).sum())
+        for (part,) in parts(pressure):
+            guess = hole.of(part)
+            off += float(np.square(guess - part[:, there[:, 0], there[:, 1]]).sum())
+            told += float(np.square(guess).sum())
     return float(np.sqrt(off / told)) if told > 0.0 else UNKNOWN

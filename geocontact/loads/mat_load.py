@@ -19,13 +19,14 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.frame_blocks import blocks
+from geocontact.data.frame_blocks import parts, worked
 from geocontact.data.wrench import Wrench
 from geocontact.geometry.register.quality import PoseCovariance
 from geocontact.loads.mat_map import MatMap
 from geocontact.loads.resultant import weighted_centre
 
 FEWEST = 3  # frames of a window
+COVARIANCE = 200  # values of a frame whose covariance is worked out
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +63,13 @@ def unloaded(
             raise ValueError(f"{first:g} … {last:g} s holds {int(own.sum())} frames, at least {FEWEST} are needed")
         inside |= own
     middle = float(time[inside].mean())
-    offset = pressure[inside].mean(axis=0)
+    total = [part[chosen].sum(axis=0) for part, chosen in parts(pressure, inside)]
+    offset = np.asarray(np.sum(total, axis=0) / inside.sum())
     drift = np.zeros_like(offset)
     if len(windows) > 1:
-        moment = time[inside] - middle
-        drift = np.einsum("t,trc->rc", moment, pressure[inside] - offset) / float(moment @ moment)
+        each = parts(pressure, time - middle, inside)
+        pulled = [np.einsum("t,trc->rc", after[chosen], part[chosen] - offset) for part, after, chosen in each]
+        drift = np.asarray(np.sum(pulled, axis=0) / float(np.square(time[inside] - middle).sum()))
     return Unloaded(offset, drift, middle)
 
 
@@ -134,37 +137,38 @@ def mat_load(
         Which cells count: those of a segment. All without.
     """
     use = np.ones(len(placed.area), bool) if cells is None else cells
-    pressure, area = pressure if use.all() else pressure[:, use], placed.area[use]
     if not use.any():
         raise ValueError("a segment needs at least one cell that lies on the surface")
-    force = pressure @ placed.force[use]
-    moment = pressure @ placed.moment[use] - np.cross(origin, force)
-    parts = [
-        _part(placed.centre[use], pressure[some], area, gate, touched) for some in blocks(len(pressure), len(area))
-    ]
-    pressing, touched_area, mean, centre = (np.concatenate(each) for each in zip(*parts, strict=True))
-    normal = _facing(placed.force[use], area)
+
+    def of_part(part: Float[np.ndarray, "t n"]) -> Float[np.ndarray, "t m"]:
+        own = part if use.all() else part[:, use]
+        wrench = own @ np.concatenate([placed.force[use], placed.moment[use]], axis=1)
+        return np.column_stack([wrench, *_sizes(placed.centre[use], own, placed.area[use], gate, touched)])
+
+    each = worked(of_part, pressure)
+    force, moment, centre = each[:, :3], each[:, 3:6] - np.cross(origin, each[:, :3]), each[:, 6:9]
+    normal = _facing(placed.force[use], placed.area[use])
     at = np.broadcast_to(np.asarray(origin, float), force.shape)
     return MatLoad(
         Wrench(force, moment, at, frame),
-        pressing,
+        each[:, 9],
         -(force @ normal),
         normal,
-        touched_area,
-        pressure.max(axis=1, initial=0.0),
-        mean,
+        each[:, 10],
+        each[:, 11],
+        each[:, 12],
         centre,
     )
 
 
-def _part(
+def _sizes(
     points: Float[np.ndarray, "n 3"],
     pressure: Float[np.ndarray, "t n"],
     area: Float[np.ndarray, " n"],
     gate: float,
     touched: float,
-) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, " t"], Float[np.ndarray, "t 3"]]:
-    """Pressing, touched area, mean pressure on it, and centre, of some frames."""
+) -> tuple[np.ndarray, ...]:
+    """Centre, pressing, touched area, largest pressure, and mean on that area, of some frames."""
     weight = pressure * area
     pressing = weight.sum(axis=1)
     loaded = (pressing > 0.0) & (pressing >= gate)
@@ -172,7 +176,7 @@ def _part(
     on = pressure >= touched
     touched_area = (on * area).sum(axis=1)
     mean = np.divide((on * weight).sum(axis=1), touched_area, out=np.zeros(len(on)), where=touched_area > 0.0)
-    return pressing, touched_area, mean, centre
+    return centre, pressing, touched_area, pressure.max(axis=1, initial=0.0), mean
 
 
 def _facing(force: Float[np.ndarray, "n 3"], area: Float[np.ndarray, " n"]) -> Float[np.ndarray, " 3"]:
@@ -238,20 +242,24 @@ def wrench_covariance(
     middle = placed.middle
     origin = wrench.origin[0]
     own = np.concatenate([placed.force, placed.moment - np.cross(origin, placed.force)], axis=1)
-    squares = ((errors.cell * pressure[some]) ** 2 for some in blocks(len(pressure), pressure.shape[1]))
-    total = np.concatenate([np.einsum("tn,ni,nj->tij", part, own, own, optimize=True) for part in squares])
-    whole = np.concatenate([wrench.force, wrench.moment], axis=1)
-    total += errors.gain**2 * whole[:, :, None] * whole[:, None, :]
-    about = wrench.moved_to(middle).moment
-    turned = np.concatenate([-_crossing(wrench.force), -_crossing(about)], axis=1)
-    turned[:, 3:] += _crossing((middle - origin)[None]) @ turned[:, :3]
-    moved = np.concatenate([np.zeros((len(whole), 3, 3)), -_crossing(wrench.force)], axis=1)
-    for by, jacobian in ((errors.turn, turned), (errors.shift, moved)):
-        total += by**2 * jacobian @ jacobian.transpose(0, 2, 1)
-    if errors.pose is not None:
-        both = np.concatenate([moved, turned], axis=2)
-        total += both @ errors.pose.at(middle) @ both.transpose(0, 2, 1)
-    return np.asarray(total)
+    pose = None if errors.pose is None else errors.pose.at(middle)
+
+    def of_part(part: Float[np.ndarray, "t n"], loads: Float[np.ndarray, "t 9"]) -> Float[np.ndarray, "t six six"]:
+        force, whole, about = loads[:, :3], loads[:, :6], loads[:, 6:]
+        total = np.einsum("tn,ni,nj->tij", (errors.cell * part) ** 2, own, own, optimize=True)
+        total += errors.gain**2 * whole[:, :, None] * whole[:, None, :]
+        turned = np.concatenate([-_crossing(force), -_crossing(about)], axis=1)
+        turned[:, 3:] += _crossing((middle - origin)[None]) @ turned[:, :3]
+        moved = np.concatenate([np.zeros((len(whole), 3, 3)), -_crossing(force)], axis=1)
+        for by, jacobian in ((errors.turn, turned), (errors.shift, moved)):
+            total += by**2 * jacobian @ jacobian.transpose(0, 2, 1)
+        if pose is not None:
+            both = np.concatenate([moved, turned], axis=2)
+            total += both @ pose @ both.transpose(0, 2, 1)
+        return np.asarray(total)
+
+    loads = np.concatenate([wrench.force, wrench.moment, wrench.moved_to(middle).moment], axis=1)
+    return worked(of_part, pressure, loads, each=COVARIANCE)
 
 
 def _crossing(vector: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3 3"]:

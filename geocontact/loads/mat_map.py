@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.data.frame_blocks import worked
 from geocontact.geometry.surface import Surface
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ class MatMap:
         place = self.cell[:, 0] * pressure.shape[2] + self.cell[:, 1]
         if np.array_equal(place, np.arange(pressure.shape[1] * pressure.shape[2])):  # all of them: no second copy
             return pressure.reshape(len(pressure), -1)
-        return np.asarray(pressure[:, self.cell[:, 0], self.cell[:, 1]])
+        return worked(lambda part: part[:, self.cell[:, 0], self.cell[:, 1]], pressure)
 
     def face_pressure(
         self, pressure: Float[np.ndarray, "t n"], face_area: Float[np.ndarray, " f"]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +13,11 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 
 from geocontact.data import frame_blocks
-from geocontact.data.frame_blocks import blocks
+from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import Growing, blocks, parts, room, worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.identify.signals.filters import as_opensim
-from geocontact.io.text import results
+from geocontact.io.text import file_preflight, results
 
 PRESSURE = np.random.default_rng(58).uniform(0.0, 2e4, (101, 4, 3))
 
@@ -53,3 +56,38 @@ def test_a_table_of_parts_is_that_of_the_whole(tmp_path: Path, monkeypatch: pyte
     assert texts[3] == texts[100] and texts[3].count(b"\n") == 8
     results.write_table(table.iloc[:0], tmp_path, "none")
     assert (tmp_path / "none.csv").read_text(encoding="utf-8") == "time [s],force [N],side\n"
+
+
+def test_numbers_that_grow_are_those_that_were_given() -> None:
+    """In files and in memory; half a frame more than a part."""
+    for count in (3, 75, 151):
+        grown, given = Growing(), np.random.default_rng(count).normal(size=count)
+        for start in range(0, count, 7):
+            grown.extend(given[start : start + 7].tolist())
+        assert len(grown) == count
+        np.testing.assert_array_equal(grown.values(), given)
+
+
+def test_side_by_side_and_one_frame_for_a_part() -> None:
+    values = room((9, 12))
+    values[:] = np.arange(108.0).reshape(9, 12)
+    sums = worked(lambda part, scale: part.sum(axis=1) * scale, values, np.arange(9.0))
+    np.testing.assert_array_equal(sums, values.sum(axis=1) * np.arange(9.0))
+    assert [len(part) for part, _ in parts(values, np.arange(9.0), each=40)] == [1] * 9
+
+
+def test_a_full_disk_is_said_before_anything_is_computed(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(frame_blocks.os, "posix_fallocate", full, raising=False)
+    with pytest.raises(InputError, match=r"cannot hold 8e-07 GB .* \(No space left on device\); name another folder"):
+        room((10, 10))
+
+
+def test_lines_of_a_file_are_those_of_its_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ends of all kinds, one of them between two blocks; of a line that is too long its beginning comes."""
+    monkeypatch.setattr(file_preflight, "BLOCK", 4)
+    for data in (b"ab\r\ncd\r\n\r\nefghijk\rl\nm", b"abc\r\nd", b"abc\rd\r", b"\n\n", b""):
+        assert list(file_preflight.lines_in(BytesIO(data).read, 20)) == data.splitlines()
+    assert len(next(file_preflight.lines_in(BytesIO(b"x" * 100).read, 20))) in range(21, 25)

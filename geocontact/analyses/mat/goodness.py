@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
+from geocontact.data.frame_blocks import parts
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.quality import Registration
 from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit
@@ -41,13 +42,13 @@ def goodness_of_cells(frames: PressureFrames, saturated: Bool[np.ndarray, "t r c
 
 
 def _of_cells(frames: PressureFrames, saturated: Bool[np.ndarray, "t r c"]) -> Iterable[Doubt]:
-    if not saturated.any():
+    if not any(part.any() for (part,) in parts(saturated)):
         return
-    pressed = np.where(frames.valid, frames.pressure, 0.0) > 0.0
-    under = _areas(pressed, frames)
     heaviest = int(np.argmax(frames.force))
-    if under[heaviest] > 0.0:
-        share = float(_areas(saturated & pressed, frames)[heaviest] / under[heaviest])
+    pressed = np.where(frames.valid, frames.pressure[heaviest], 0.0) > 0.0
+    under = float(frames.cell_area[pressed].sum())
+    if under > 0.0:
+        share = float(frames.cell_area[saturated[heaviest] & pressed].sum()) / under
         what = f"cells clip on {share:.0%} of the area under the largest force"
         yield Doubt(what, share >= MUCH, share)
 
@@ -61,11 +62,10 @@ def beyond_saturation(read: PressureFrames) -> Iterable[str]:
 
     A cell that clips reads that end. Units are named in which the pressure would be within it.
     """
-    pressure = np.where(read.valid, np.nan_to_num(read.pressure), 0.0)
-    top, end = float(pressure.max(initial=0.0)), read.saturation
+    top, end = _top(read), read.saturation
     if top <= BEYOND * end:
         return
-    row, column = np.argwhere(pressure == top)[0][1:]
+    row, column = next(np.argwhere(part == top)[0][1:] for part in _readings(read) if (part == top).any())
     within = [
         f"{top * DIMENSIONS['Pa'][unit] * 1e-6:.4g} kPa if they are in {unit}"
         for unit in ("mmHg", "Pa")
@@ -83,10 +83,10 @@ samples that are below that value: one pressure everywhere is no range that ends
 
 def one_top(read: PressureFrames) -> Iterable[str]:
     """Several cells, in words, that stop at one and the same largest value, below the stated saturation."""
-    pressure = np.where(read.valid, np.nan_to_num(read.pressure), 0.0)
-    top = float(pressure.max(initial=0.0))
-    stopped = ((pressure == top).sum(axis=0) >= STOPS).sum()
-    between = ((pressure > 0.0) & (pressure < top)).sum() > PART * (pressure > 0.0).sum()
+    top = _top(read)
+    stopped = (np.sum([(part == top).sum(axis=0) for part in _readings(read)], axis=0) >= STOPS).sum()
+    pressed = sum(int((part > 0.0).sum()) for part in _readings(read))
+    between = sum(int(((part > 0.0) & (part < top)).sum()) for part in _readings(read)) > PART * pressed
     if 0.0 < top < read.saturation and stopped >= STOPPED and between:
         what = f"{stopped} cells stop at one value, {top * 1e-3:.4g} kPa, the largest of all"
         yield f"{what}: if that is where they clip, give it in the layout as saturation_kPa; forces are too low"
@@ -108,44 +108,68 @@ def odd_cells(read: PressureFrames, touched: float, gate: float) -> Iterable[str
     touched, gate
         Pressure from which a cell counts as touched [Pa], and force from which there is a centre of pressure [N].
     """
-    pressure = np.where(read.valid, np.nan_to_num(read.pressure), 0.0)
-    top = float(pressure.max(initial=0.0))
+    top = _top(read)
     if 0.0 < top < touched:
         yield f"`touched` is {1e-3 * touched:g} kPa, and no cell reads more than {1e-3 * top:.4g}: no cell is touched"
     heaviest = float(read.force.max(initial=0.0))
     if 0.0 < heaviest < gate:
         yield f"`gate` is {gate:g} N, and the force {heaviest:.4g} N at most: no frame has a centre of pressure"
-    both = ("row", pressure, read.valid), ("column", np.swapaxes(pressure, 1, 2), read.valid.T)
-    for way, lines, valid in both if len(pressure) else ():
-        for silent in _silent(lines, valid, touched):
+    for way, turned in (("row", False), ("column", True)) if len(read.pressure) else ():
+        for silent in _silent(read, turned, touched):
             yield f"no cell of {way} {silent} is ever pressed, while those on both sides are: is its line broken?"
-        same = [k for k in range(lines.shape[1] - 1) if _repeats(lines[:, k], lines[:, k + 1])]
-        mirrored = len(lines) > 1 and np.array_equal(lines, lines[:, ::-1])  # a made-up course
-        for k in [] if mirrored else same:
+        for k in _copied(read, turned):
             yield f"{way} {k + 1} reads what {way} {k} reads, in every frame: is it a copy?"
 
 
-def _silent(lines: Float[np.ndarray, "t r c"], valid: Bool[np.ndarray, "r c"], touched: float) -> Iterable[int]:
+def _readings(read: PressureFrames, turned: bool = False) -> Iterable[Float[np.ndarray, "t r c"]]:
+    """Frames a part at a time, 0 where there is no cell; rows and columns exchanged where `turned`."""
+    for (part,) in parts(read.pressure):
+        pressure = np.where(read.valid, np.nan_to_num(part), 0.0)
+        yield np.swapaxes(pressure, 1, 2) if turned else pressure
+
+
+def _top(read: PressureFrames) -> float:
+    """Largest reading, 0 at least."""
+    return max(float(part.max(initial=0.0)) for part in _readings(read))
+
+
+def _silent(read: PressureFrames, turned: bool, touched: float) -> Iterable[int]:
     """Lines with cells that work, none of which is ever pressed, across one loaded area; the outer two are not known.
 
     A line that separates two loaded areas looks the same, but pressure falls towards it from both.
     """
-    for k in range(2, lines.shape[1] - 2):
-        if not valid[k].any() or lines[:, k].any():
+    valid = read.valid.T if turned else read.valid
+    pressed = np.any([part.any(axis=(0, 2)) for part in _readings(read, turned)], axis=0)
+    for k in range(2, len(valid) - 2):
+        if not valid[k].any() or pressed[k]:
             continue
-        one, other = lines[:, k - 1] >= touched, lines[:, k + 1] >= touched
-        together, either = one & other, one | other
-        crossed = valid[k] & together.any(axis=0) & (together.sum(axis=0) >= TOGETHER * either.sum(axis=0))
-        if crossed.sum() < BESIDE:
-            continue
-        rises = (lines[:, k - 1] > lines[:, k - 2]) | (lines[:, k + 1] > lines[:, k + 2])
-        if rises[:, crossed][together[:, crossed]].mean() >= ARCHED:
+        counts = np.sum([_about(part[:, k - 2 : k + 3], touched) for part in _readings(read, turned)], axis=0)
+        together, either, arched = counts
+        crossed = valid[k] & (together > 0) & (together >= TOGETHER * either)
+        if crossed.sum() >= BESIDE and arched[crossed].sum() >= ARCHED * together[crossed].sum():
             yield k
 
 
-def _repeats(one: Float[np.ndarray, "t c"], other: Float[np.ndarray, "t c"]) -> bool:
-    return np.array_equal(one, other) and len(np.unique(one)) > DISTINCT
+def _about(lines: Float[np.ndarray, "t 5 c"], touched: float) -> Int[np.ndarray, "3 c"]:
+    """In how many frames each cell beside the middle one of five lines is pressed: both, either, and both while
+    pressure rises towards the middle from one side.
+    """
+    one, other = lines[:, 1] >= touched, lines[:, 3] >= touched
+    rises = (lines[:, 1] > lines[:, 0]) | (lines[:, 3] > lines[:, 4])
+    return np.array([each.sum(axis=0) for each in (one & other, one | other, one & other & rises)])
 
 
-def _areas(cells: Bool[np.ndarray, "t r c"], frames: PressureFrames) -> Float[np.ndarray, " t"]:
-    return np.asarray(np.tensordot(cells.astype(float), np.broadcast_to(frames.cell_area, cells.shape[1:]), 2))
+def _copied(read: PressureFrames, turned: bool) -> Iterable[int]:
+    """Lines that the next one repeats, with several different pressures; none of a mat that is its own mirror image,
+    as a made-up course is.
+    """
+    count = (read.valid.T if turned else read.valid).shape[0]
+    same, distinct = np.ones(max(count - 1, 0), bool), [set[float]() for _ in range(count)]
+    mirrored = len(read.pressure) > 1
+    for part in _readings(read, turned):
+        same &= (part[:, 1:] == part[:, :-1]).all(axis=(0, 2))
+        mirrored = mirrored and np.array_equal(part, part[:, ::-1])
+        for k in np.flatnonzero(same):
+            if len(distinct[k]) <= DISTINCT:
+                distinct[k].update(np.unique(part[:, k])[: DISTINCT + 1].tolist())
+    return [] if mirrored else [int(k) for k in np.flatnonzero(same) if len(distinct[k]) > DISTINCT]

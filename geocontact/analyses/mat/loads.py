@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,7 @@ from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat, cells_of, mat_and_marks
 from geocontact.analyses.mat.recording import PreparedFrames, Travel
 from geocontact.analyses.mat.shear import MatShear, shear_table
+from geocontact.data.frame_blocks import parts, worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape
 from geocontact.geometry.drape.slip import slip_covariance
@@ -109,7 +110,8 @@ def loads(given: MatInputs, p: PlacedMat, seen: PreparedFrames, travel: Travel |
     mat, marks = mat_and_marks(seen.frames, p.landmarks, o)
     errors = stated_errors(p.cells, p.registration, slip_covariance(mat, p.drape, marks, o.belt), o)
     spread = wrench_covariance(p.cells, pressure, whole.wrench, errors)
-    spread += filling_covariance(p.cells, pressure, whole.wrench, seen.gaps)
+    if seen.gaps:
+        spread = worked(np.add, spread, filling_covariance(p.cells, pressure, whole.wrench, seen.gaps))
     if travel is not None:
         whole, parts, spread = travel.carried(whole, parts, spread, given.point)
     found = MatLoads(pressure, whole, parts, spread, errors, home)
@@ -203,13 +205,21 @@ class MatFindings(Result):
     @cached_property
     def on_faces(self) -> Float[np.ndarray, " t"]:
         """Largest pressure of a face in each frame [Pa]: colours of page and figure end at the largest of all."""
-        area = self.surface.face_area
-        return np.array([self.cells.face_pressure(one[None], area).max(initial=0.0) for one in self.pressure])
+        under = np.flatnonzero(np.diff(self.cells.share.indptr))  # faces that carry no cell have no pressure
+        cells, area = replace(self.cells, share=self.cells.share[under]), self.surface.face_area[under]
+        return worked(
+            lambda part: cells.face_pressure(part, area).max(axis=1, initial=0.0), self.pressure, each=len(under)
+        )
+
+    @cached_property
+    def peak(self) -> Float[np.ndarray, " n"]:
+        """Largest pressure of each cell over time [Pa]."""
+        return np.max([part.max(axis=0, initial=0.0) for (part,) in parts(self.pressure)], axis=0)
 
     @property
     def deviation(self) -> Float[np.ndarray, "t six"]:
         """Standard deviations of force [N] and moment [N m]."""
-        return np.asarray(np.sqrt(np.maximum(np.diagonal(self.uncertainty, axis1=1, axis2=2), 0.0)))
+        return worked(lambda part: np.sqrt(np.maximum(np.diagonal(part, axis1=1, axis2=2), 0.0)), self.uncertainty)
 
 
 MM = 1e3
@@ -238,7 +248,7 @@ def _wrench_table(r: MatFindings) -> pd.DataFrame:
     """Load of every frame, and how many cells clip: forces are too low then."""
     row, column = r.cells.cell.T
     table = load_table(r.loads, r.frames.time)
-    return table.assign(**{"saturated [-]": r.saturated[:, row, column].sum(axis=1)})
+    return table.assign(**{"saturated [-]": worked(lambda part: part[:, row, column].sum(axis=1), r.saturated)})
 
 
 def _uncertainty_table(r: MatFindings) -> pd.DataFrame:
@@ -262,16 +272,17 @@ def _cell_table(r: MatFindings) -> pd.DataFrame:
             "area [m^2]": r.cells.area,
             "distortion [-]": r.drape.distortion[row, column],
             **({} if beside is None else {"distortion_projected [-]": beside.distortion[row, column]}),
-            "peak [Pa]": r.pressure.max(axis=0, initial=0.0),
-            "saturated_frames": r.saturated[:, row, column].sum(axis=0),
+            "peak [Pa]": r.peak,
+            "saturated_frames": np.sum([part[:, row, column].sum(axis=0) for (part,) in parts(r.saturated)], axis=0),
         }
     )
 
 
 def _frames_table(r: MatFindings) -> pd.DataFrame:
     """Pressure of each cell over time, as gap cases hold cell channels."""
-    columns = {f"c{k} [Pa]": r.pressure[:, k] for k in range(r.pressure.shape[1])}
-    return pd.DataFrame({"time [s]": r.frames.time, **columns})
+    table = pd.DataFrame(r.pressure, columns=[f"c{k} [Pa]" for k in range(r.pressure.shape[1])], copy=False)
+    table.insert(0, "time [s]", r.frames.time)
+    return table
 
 
 def _segments_table(r: MatFindings) -> pd.DataFrame:

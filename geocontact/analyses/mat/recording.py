@@ -17,7 +17,7 @@ from geocontact.analyses.frame.collector import add_input, judge, note, reserve,
 from geocontact.analyses.mat.goodness import beyond_saturation, goodness_of_cells, odd_cells, one_top
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
-from geocontact.data.frame_blocks import blocks
+from geocontact.data.frame_blocks import parts, worked
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.register.landmarks import poses_at
@@ -25,7 +25,7 @@ from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.mats.catalogue import read_mat, read_shear_grid
 from geocontact.io.mats.layout import read_layout
 from geocontact.loads.dead_cells import Hole, dead_cells, filled, holes
-from geocontact.loads.mat_load import MatLoad, Unloaded, covariance_in, load_in, unloaded
+from geocontact.loads.mat_load import COVARIANCE, MatLoad, Unloaded, covariance_in, load_in, unloaded
 from geocontact.trial_checks.channel_checks import odd_rate
 
 NAMED = 8  # cells in a warning; run.json has them all
@@ -116,7 +116,7 @@ def _report_cells(
 ) -> None:
     """run.json has every cell, and what the cells would have carried in the frame with the largest force."""
     whole = filled(pressure, gaps)
-    heaviest = int(np.argmax((whole * read.cell_area).sum(axis=(1, 2))))
+    heaviest = int(np.argmax(worked(lambda part: (part * read.cell_area).sum(axis=(1, 2)), whole)))
     dead = np.argwhere(found | result.declared).tolist()
     note(
         "dead_cells",
@@ -183,10 +183,10 @@ class PreparedFrames:
     @cached_property
     def saturated(self) -> Bool[np.ndarray, "t r c"]:
         """Cells that count and clip, as they were read; filled ones do not."""
-        clipping = self.read.saturated & self.frames.valid
+        counted = self.frames.valid.copy()
         for hole in self.gaps:
-            clipping[:, hole.cell[:, 0], hole.cell[:, 1]] = False
-        return np.asarray(clipping)
+            counted[hole.cell[:, 0], hole.cell[:, 1]] = False
+        return worked(lambda part: part & counted, self.read.saturated)
 
 
 SLOWEST = 0.5
@@ -218,18 +218,22 @@ def made_ready(read: PressureFrames, listed: tuple[tuple[int, int], ...], o: Mat
     """Frames without offset and dead cells, smoothed; `listed` are the cells that the layout lists as dead."""
     pressure = _working(read, 0.0)
     if o.unloaded is not None:
-        pressure = pressure - _zero(read, pressure, o.unloaded).at(read.time)
+        offset = _zero(read, pressure, o.unloaded)
+        pressure = worked(lambda part, time: part - offset.at(time), pressure, read.time)
     sound = treated(read, pressure, listed, o.dead, o.touched)
     pressure, valid = _smooth(read, sound.pressure, o), sound.valid
-    frames = replace(read, pressure=pressure if valid.all() else np.where(valid, pressure, np.nan), valid=valid)
-    found = PreparedFrames(frames, read, sound.gaps)
+    if not valid.all():
+        pressure = worked(lambda part: np.where(valid, part, np.nan), pressure)
+    found = PreparedFrames(replace(read, pressure=pressure, valid=valid), read, sound.gaps)
     _reserve_oddities(found, o)
     return found
 
 
 def _working(frames: PressureFrames, other: float) -> Float[np.ndarray, "t r c"]:
     """Pressures, and `other` where there is no cell; no copy where there are cells everywhere."""
-    return frames.pressure if frames.valid.all() else np.where(frames.valid, frames.pressure, other)
+    if frames.valid.all():
+        return frames.pressure
+    return worked(lambda part: np.where(frames.valid, part, other), frames.pressure)
 
 
 def _chosen(mats: tuple[PressureFrames, ...], o: MatOptions) -> PressureFrames:
@@ -288,13 +292,16 @@ def read_shear(recorded: PressureFrames, o: MatOptions) -> tuple[PressureFrames,
             what = f"has other cells or times than {o.frames.name}"
             raise InputError(file, role, what, "export pressure and shear of the same frames")
         for other in [recorded.pressure, *raw]:
-            if read.pressure.any() and np.array_equal(read.pressure, other, equal_nan=True):
+            if any(part.any() for (part,) in parts(read.pressure)) and all(
+                np.array_equal(one, another, equal_nan=True) for one, another in parts(read.pressure, other)
+            ):
                 kind = "the pressure" if other is recorded.pressure else "the other shear"
                 raise InputError(file, role, f"its values are those of {kind}", "give the files of both shear stresses")
         raw.append(read.pressure)
-        stress = np.where(read.valid, read.pressure, 0.0)
+        stress = _working(read, 0.0)
         if o.unloaded is not None:
-            stress = stress - _zero(read, stress, o.unloaded).at(read.time)
+            offset = _zero(read, stress, o.unloaded)
+            stress = worked(lambda part, time, offset=offset: part - offset.at(time), stress, read.time)
         found.append(replace(read, pressure=_smooth(read, stress, o)))
     return found[0], found[1]
 
@@ -305,8 +312,9 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     beyond = list(beyond_saturation(seen.read))
     for line in (*beyond, *odd_cells(seen.read, o.touched, o.gate)):
         reserve(line)
-    if clipping.any() and not beyond:
-        cells, share = int(clipping.any(axis=0).sum()), clipping.any(axis=(1, 2)).mean()
+    ever = np.any([part.any(axis=0) for (part,) in parts(clipping)], axis=0)
+    if ever.any() and not beyond:
+        cells, share = int(ever.sum()), worked(lambda part: part.any(axis=(1, 2)), clipping).mean()
         reserve(
             f"{cells} cells clip at {frames.saturation * 1e-3:g} kPa, in {share:.0%} of the frames: forces are too low"
         )
@@ -315,7 +323,7 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
     dead = int((~frames.valid).sum())
     if dead:
         say(f"{dead} of {frames.valid.size} places of the grid have no working cell")
-    silent = frames.valid & ~(frames.pressure > 0.0).any(axis=0)
+    silent = frames.valid & ~np.any([(part > 0.0).any(axis=0) for (part,) in parts(frames.pressure)], axis=0)
     if silent.any() and not silent.all():
         note("silent_cells", np.argwhere(silent).tolist())
     _reserve_negative(frames)
@@ -328,9 +336,9 @@ def _reserve_oddities(seen: PreparedFrames, o: MatOptions) -> None:
 def _reserve_negative(frames: PressureFrames) -> None:
     """Noise about zero sums to little; an offset that was taken off and was none does not."""
     pressure = _working(frames, 0.0)
-    parts = blocks(len(pressure), frames.valid.size)
-    below = np.concatenate([np.tensordot(np.minimum(pressure[some], 0.0), frames.cell_area, 2) for some in parts])
-    lowest, least = float(pressure.min(initial=0.0)), float(below.min(initial=0.0))
+    below = worked(lambda part: np.tensordot(np.minimum(part, 0.0), frames.cell_area, 2), pressure)
+    lowest = min(float(part.min(initial=0.0)) for (part,) in parts(pressure))
+    least = float(below.min(initial=0.0))
     note("below_zero", {"lowest_Pa": lowest, "largest_force_N": -least})
     if -least > RESTING * float(np.abs(frames.force).max(initial=0.0)):
         reserve(f"cells that read below 0 sum to {least:.1f} N in one frame: check `unloaded` and the offset")
@@ -358,7 +366,12 @@ class Travel:
         return (
             load_in(whole, self.poses, point, self.frame),
             {name: load_in(part, self.poses, point, self.frame) for name, part in parts.items()},
-            covariance_in(covariance, origin, self.poses, point),
+            worked(
+                lambda part, k: covariance_in(part, origin, self.poses[k], point),
+                covariance,
+                np.arange(len(covariance)),
+                each=COVARIANCE,
+            ),
         )
 
 
@@ -399,4 +412,6 @@ def _name(o: MatOptions) -> str:
 
 
 def _only(frames: PressureFrames, chosen: Bool[np.ndarray, " t"]) -> PressureFrames:
-    return replace(frames, time=frames.time[chosen], pressure=frames.pressure[chosen])
+    """The chosen frames, which follow each other: times grow."""
+    first, last = np.flatnonzero(chosen)[[0, -1]]
+    return replace(frames, time=frames.time[first : last + 1], pressure=frames.pressure[first : last + 1])

@@ -31,6 +31,7 @@ from geocontact.analyses.mat.recording import followed, made_ready
 from geocontact.analyses.mat.shear import mat_shear
 from geocontact.analyses.mat.show import FRAMES, cells_figure, mat_figure, mat_page, shown_frames
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import parts
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES
 from geocontact.view.surfaces.points_vtp import write_mat_vtp
@@ -105,8 +106,9 @@ class MatResult(MatFindings):
         """Pressure of each face of the surface [Pa]: largest, mean, and under the largest force."""
         k = self.heaviest
         chosen = {
-            "peak over time": self.pressure.max(axis=0),
-            "mean over time": self.pressure.mean(axis=0),
+            "peak over time": self.peak,
+            "mean over time": np.sum([part.sum(axis=0) for (part,) in parts(self.pressure)], axis=0)
+            / len(self.pressure),
             f"frame {k + 1}, {self.frames.time[k]:g} s": self.pressure[k],
         }
         return {

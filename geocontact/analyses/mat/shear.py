@@ -17,6 +17,7 @@ from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat
 from geocontact.analyses.mat.recording import TOUCH, Travel
+from geocontact.data.frame_blocks import worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit, noise_of
 from geocontact.loads.mat_load import MatLoad
@@ -68,21 +69,29 @@ def mat_shear(
     if given.shear is None:
         return None
     pressure, whole = pressed
-    kept = same_times(given.recorded.time, frames.time)
-    pressing, loaded = pressure > 0.0, pressure >= o.touched
-    along, across = (np.where(pressing, there.cells.of(each.pressure[kept]), 0.0) for each in given.shear)
+    kept = same_times(given.recorded.time, frames.time)  # frames follow each other, those without a pose are at an end
+    both = [there.cells.of(each.pressure[kept[0] : kept[-1] + 1]) for each in given.shear]
+    mu = FRICTION if o.friction is None else o.friction
     rows, columns = tangents(there)
     area, centre = there.cells.area, there.cells.centre
-    each = area[:, None] * (along[..., None] * rows + across[..., None] * columns)
-    force, origin = each.sum(axis=1), whole.wrench.origin
-    moment = np.cross(centre[None], each).sum(axis=1)
+
+    def of_part(pressed: np.ndarray, along: np.ndarray, across: np.ndarray) -> np.ndarray:
+        """Force, moment about the origin, whether a cell presses, and cells that are loaded and beyond friction."""
+        pressing, loaded = pressed > 0.0, pressed >= o.touched
+        stress = np.where(pressing, along, 0.0)[..., None] * rows + np.where(pressing, across, 0.0)[..., None] * columns
+        each = area[:, None] * stress
+        moment, beyond = np.cross(centre[None], each), np.linalg.norm(stress, axis=2) > mu * pressed
+        counts = [pressing.any(axis=1), loaded.sum(axis=1), (loaded & beyond).sum(axis=1)]
+        return np.column_stack([each.sum(axis=1), moment.sum(axis=1), *counts])
+
+    every = worked(of_part, pressure, *both, each=10 * len(area))
+    force, moment, origin = every[:, :3], every[:, 3:6], whole.wrench.origin
     if travel is not None:
         turn = travel.poses.rotation
         force, moment = turn.apply(force), turn.apply(moment) + np.cross(travel.poses.translation, turn.apply(force))
     moment = moment - np.cross(origin, force)
-    stress = np.linalg.norm(each, axis=2) / area
-    mu = FRICTION if o.friction is None else o.friction
-    beyond = float(np.mean(stress[loaded] > mu * pressure[loaded])) if loaded.any() else 0.0
+    pressing, loaded, over = every[:, 6] > 0.0, float(every[:, 7].sum()), float(every[:, 8].sum())
+    beyond = over / loaded if loaded else 0.0
     limit = friction_limit(np.linalg.norm(force, axis=1), whole.pressing, mu, _noise(force, pressing))
     found = MatShear(np.asarray(force), np.asarray(moment), limit, beyond)
     _report(found, frames.time, "" if o.friction is not None else " (the default: state `friction`)")
@@ -96,9 +105,9 @@ def same_times(recorded: Float[np.ndarray, " r"], wanted: Float[np.ndarray, " t"
     return np.flatnonzero(np.min([np.abs(recorded - end) for end in ends], axis=0) <= TOUCH)
 
 
-def _noise(force: Float[np.ndarray, "t 3"], pressing: Bool[np.ndarray, "t n"]) -> float:
+def _noise(force: Float[np.ndarray, "t 3"], pressing: Bool[np.ndarray, " t"]) -> float:
     """Noise of the three parts together, where a cell presses [N]: the length of noise varies less than they do."""
-    under = np.where(np.any(pressing, axis=1, keepdims=True), force, np.nan)
+    under = np.where(pressing[:, None], force, np.nan)
     return float(np.linalg.norm([noise_of(part) for part in under.T]))
 
 

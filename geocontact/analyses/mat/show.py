@@ -69,7 +69,7 @@ def _cells(figure: Figure, axes: Axes, r: MatFindings) -> None:
     from matplotlib import colormaps
 
     grid = np.full(r.drape.area.shape, np.nan)
-    grid[r.cells.cell[:, 0], r.cells.cell[:, 1]] = r.pressure.max(axis=0) * KPA
+    grid[r.cells.cell[:, 0], r.cells.cell[:, 1]] = r.peak * KPA
     grid[grid == 0.0] = -1.0
     colours = colormaps["inferno_r"].with_extremes(under=UNTOUCHED)
     image = axes.imshow(grid, cmap=colours, vmin=0.0, vmax=float(r.on_faces.max()) * KPA or 1.0)

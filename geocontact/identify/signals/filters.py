@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.interpolate import PchipInterpolator
 
-from geocontact.data.frame_blocks import blocks
+from geocontact.data.frame_blocks import blocks, release, room
 from geocontact.identify.signals.cycles import Span
 
 UNEVEN = 0.05
@@ -146,14 +146,42 @@ def _check(step: float, cutoff: float) -> None:
 def _both_ways(
     values: Float[np.ndarray, "t ..."], step: float, corner: float, order: int, mirrored: int | None = None
 ) -> Float[np.ndarray, "t ..."]:
-    from scipy.signal import butter, sosfiltfilt
+    """The operations of `scipy.signal.sosfiltfilt` one by one, a part of the time after the other.
+
+    The state of the filter at the end of a part is that at the beginning of the next, so that parts have no borders:
+    the values are those of the whole, to the last digit.
+    """
+    from scipy.signal import butter, sosfilt, sosfilt_zi
 
     sections = butter(order, corner, fs=1.0 / step, output="sos")
-    try:
-        channels = values.reshape(len(values), -1)
-        found = np.empty(channels.shape)
-        for some in blocks(channels.shape[1], len(values)):
-            found[:, some] = sosfiltfilt(sections, channels[:, some], axis=0, padlen=mirrored)
-        return found.reshape(values.shape)
-    except ValueError as error:
-        raise ValueError(f"{len(values)} samples are too few to be filtered") from error
+    beyond = 3 * _taps(sections) if mirrored is None else mirrored
+    if len(values) <= beyond:
+        raise ValueError(f"{len(values)} samples are too few to be filtered")
+    channels = values.reshape(len(values), -1)
+    found = room(channels.shape)
+    before = 2.0 * channels[0] - channels[beyond:0:-1]
+    after = 2.0 * channels[-1] - channels[-2 : -beyond - 2 : -1]
+    settled = sosfilt_zi(sections)[:, :, None]
+    state = settled * (before[0] if beyond else channels[0])
+    if beyond:
+        _, state = sosfilt(sections, before, axis=0, zi=state)
+    every = list(blocks(len(channels), channels.shape[1]))
+    for some in every:
+        found[some], state = sosfilt(sections, channels[some], axis=0, zi=state)
+        release()
+    if beyond:
+        after, _ = sosfilt(sections, after, axis=0, zi=state)
+        _, state = sosfilt(sections, after[::-1], axis=0, zi=settled * after[-1])
+    else:
+        state = settled * found[-1]
+    for some in reversed(every):
+        turned, state = sosfilt(sections, found[some][::-1], axis=0, zi=state)
+        found[some] = turned[::-1]
+        release()
+    return found.reshape(values.shape)
+
+
+def _taps(sections: Float[np.ndarray, "s six"]) -> int:
+    """Taps of a filter, trailing zeros of its sections not counted."""
+    without = min(int((sections[:, 2] == 0.0).sum()), int((sections[:, 5] == 0.0).sum()))
+    return 2 * len(sections) + 1 - without

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from array import array
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -13,6 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.frame_blocks import Growing, parts, room
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.layout import MatLayout, pressure_unit
 from geocontact.io.text.units import DIMENSIONS
@@ -78,9 +78,9 @@ class MatRecording:
 
     file: str
     name: str
-    time: Sequence[float] | None
+    time: Sequence[float] | Float[np.ndarray, " t"] | None
     lines: Sequence[int]
-    values: array[float]
+    values: Growing | Float[np.ndarray, " n"]
     unit: float | None = None
     ids: Sequence[int] | None = None
     rows: int | None = None
@@ -104,19 +104,25 @@ def frames_of(found: MatRecording, layout: MatLayout, *, signed: bool = False) -
     saturation = _settled(found, "saturation_kPa", found.saturation, layout.saturation)
     time = _times(found, layout)
     row, column = _places(found, layout, rows, columns)
-    values = np.frombuffer(found.values, dtype=np.float64).reshape(len(found.lines), -1)
+    given = found.values.values() if isinstance(found.values, Growing) else found.values
+    values = given.reshape(len(found.lines), -1)
     if np.array_equal(row * columns + column, np.arange(rows * columns)):  # no second copy of a long recording
         pressure = values.reshape(-1, rows, columns)
     else:
-        pressure = np.full((len(values), rows, columns), np.nan)
-        pressure[:, row, column] = values
+        pressure = room((len(values), rows, columns))
+        for part, read in parts(pressure, values):
+            part[:] = np.nan
+            part[:, row, column] = read
     with np.errstate(over="ignore"):  # refused below as not finite
-        pressure *= unit
+        for (part,) in parts(pressure):
+            part *= unit
     valid = _valid(found, layout, pressure)
-    pressure[:, ~valid] = np.nan
+    for (part,) in parts(pressure):
+        part[:, ~valid] = np.nan
     if not signed:
         _warn_negative(pressure, unit, found)
-    warn_implausible(found.file, found.name, float(np.nanmax(np.abs(pressure) if signed else pressure)), unit)
+    highest = max(float(np.nanmax(np.abs(part) if signed else part)) for (part,) in parts(pressure))
+    warn_implausible(found.file, found.name, highest, unit)
     areas = np.full((rows, columns), math.prod(pitch) if area is None else area[0])
     if area is not None and len(area) > 1:
         areas[row, column] = area if found.ids is None else [area[each] for each in found.ids]
@@ -231,22 +237,19 @@ def _within(
 
 def _valid(found: MatRecording, layout: MatLayout, pressure: Float[np.ndarray, "t r c"]) -> Bool[np.ndarray, "r c"]:
     """Cells that have a value in every frame and that the layout takes for sound; gaps in a recording are refused."""
-    gaps = np.isnan(pressure)
-    valid: Bool[np.ndarray, "r c"] = np.asarray(~gaps.all(axis=0))
+    valid: Bool[np.ndarray, "r c"] = ~np.all([np.isnan(part).all(axis=0) for (part,) in parts(pressure)], axis=0)
     for row, column in (*layout.masked, *layout.dead):
         if row >= valid.shape[0] or column >= valid.shape[1]:
             what = f"masked or dead cell [{row}, {column}] of the layout is outside the {valid.shape} grid"
             raise InputError(found.file, "", what, "rows and columns are counted from 0")
         valid[row, column] = False
-    gaps &= valid
-    if gaps.any():
-        frame, row, column = _first(gaps)
+    if gap := _first(np.isnan, pressure, valid):
+        frame, row, column = gap
         what = f"frame {frame + 1} has no value in cell [{row}, {column}], which other frames have"
         remedy = "list the cell under dead in the layout, or export the recording again"
         raise InputError(found.file, f"line {found.lines[frame]}", what, remedy)
-    infinite = np.isinf(pressure) & valid
-    if infinite.any():
-        frame, row, column = _first(infinite)
+    if infinite := _first(np.isinf, pressure, valid):
+        frame, row, column = infinite
         what = f"cell [{row}, {column}] of frame {frame + 1} is not finite"
         raise InputError(found.file, f"line {found.lines[frame]}", what, "list the cell under dead in the layout")
     if not valid.any():
@@ -254,23 +257,32 @@ def _valid(found: MatRecording, layout: MatLayout, pressure: Float[np.ndarray, "
     return valid
 
 
-def _first(marked: Bool[np.ndarray, "t r c"]) -> tuple[int, int, int]:
-    """Frame, row and column of the first marked value."""
-    frame, row, column = np.unravel_index(int(marked.argmax()), marked.shape)
-    return int(frame), int(row), int(column)
+def _first(
+    kind: Callable[[np.ndarray], np.ndarray], pressure: Float[np.ndarray, "t r c"], valid: Bool[np.ndarray, "r c"]
+) -> tuple[int, int, int] | None:
+    """Frame, row and column of the first value of a valid cell that is of a kind."""
+    before = 0
+    for (part,) in parts(pressure):
+        marked = kind(part) & valid
+        if marked.any():
+            frame, row, column = np.unravel_index(int(marked.argmax()), marked.shape)
+            return before + int(frame), int(row), int(column)
+        before += len(part)
+    return None
 
 
 def _warn_negative(pressure: Float[np.ndarray, "t r c"], unit: float, found: MatRecording) -> None:
     """Say once how many are below zero; mostly negative pressures are refused."""
-    below = pressure < 0.0
-    if not below.any():
+    below = sum(int((part < 0.0).sum()) for (part,) in parts(pressure))
+    if not below:
         return
-    lowest, highest = float(np.nanmin(pressure)), float(np.nanmax(pressure))
+    ends = [(np.nanmin(part), np.nanmax(part)) for (part,) in parts(pressure)]
+    lowest, highest = float(min(each for each, _ in ends)), float(max(each for _, each in ends))
     if -lowest > highest:
         what = f"pressures of '{found.name}' run from {lowest / unit:g} to {highest / unit:g} of the file's unit"
         raise InputError(found.file, "", what, "is their sign turned, or an offset subtracted twice?")
     message = (
-        f"{found.file}: {int(below.sum())} pressures of '{found.name}' below 0 (lowest {lowest / unit:g} "
+        f"{found.file}: {below} pressures of '{found.name}' below 0 (lowest {lowest / unit:g} "
         f"of the file's unit): an offset, or noise about it"
     )
     warnings.warn(InputWarning(message), stacklevel=4)

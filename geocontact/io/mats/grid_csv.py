@@ -14,6 +14,7 @@ from array import array
 import numpy as np
 
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import Growing
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import MatLayout, pressure_unit
@@ -47,9 +48,7 @@ def read_grid(text: MatText, layout: MatLayout | None, *, signed: bool = False) 
         raise InputError(text.file, "", "no header", "one row `time [s], 1, 2, ...` is needed")
     notation = notation_of([row for row in text.head[header[0] :] if row] or [header[1]], layout, text.file)
     time_scale, ids, unit = _columns(header, notation, layout, text.file)
-    time: list[float] = []
-    lines: list[int] = []
-    values: array[float] = array("d")
+    time, lines, values = array("d"), array("q"), Growing()
     width = len(ids) + (time_scale is not None)
     for number, line in rows:
         cells = notation.cells(line)

@@ -15,7 +15,11 @@ from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+from jaxtyping import Float
+
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.frame_blocks import Growing
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import LARGEST, SMALLEST, MatLayout, pressure_unit
@@ -65,15 +69,14 @@ def read_pedar(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames,
     else:
         _require_places(header, layout, text.file)
     width = 1 + sum(map(len, header.sides.values()))
-    time: array[float] = array("d")
-    lines: list[int] = []
-    values: dict[str, array[float]] = {side: array("d") for side in header.sides}
+    recorded, lines = Growing(), array("q")
+    values = {side: Growing() for side in header.sides}
     for number, line in rows:
         cells = notation.cells(line)
         if len(cells) != width:
             what = f"{len(cells) - 1} values where the header names {width - 1} sensors"
             raise InputError(text.file, f"line {number}", what, "is the file cut off?")
-        notation.add(cells[:1], time, text.file, number)
+        notation.add(cells[:1], recorded, text.file, number)
         start = 1
         for side, ids in header.sides.items():
             notation.add(cells[start : start + len(ids)], values[side], text.file, number)
@@ -81,6 +84,7 @@ def read_pedar(text: MatText, layout: MatLayout | None) -> tuple[PressureFrames,
         lines.append(number)
     if not lines:
         raise InputError(text.file, f"line {header.line}", "no frames below the header", "is the export complete?")
+    time = recorded.values()
     _check_end(header, time, text.file)
     return tuple(
         frames_of(
@@ -180,7 +184,7 @@ def _require_places(header: PedarHeader, layout: MatLayout | None, file: str) ->
             raise InputError(file, "", what, remedy)
 
 
-def _check_end(header: PedarHeader, time: array[float], file: str) -> None:
+def _check_end(header: PedarHeader, time: Float[np.ndarray, " t"], file: str) -> None:
     """Frames may stop before the total time that the header promises."""
     if header.total is None or header.rate is None or time[-1] >= header.total - 2.5 / header.rate:
         return

@@ -9,11 +9,11 @@ excerpt keeps the clock of its recording.
 from __future__ import annotations
 
 import re
-from array import array
 from collections.abc import Callable, Iterator
 from itertools import dropwhile, islice
 
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import Growing
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import (
@@ -103,11 +103,11 @@ def _keys(rows: Iterator[tuple[int, str]], file: str) -> Keys:
 
 def _frames(
     rows: Iterator[tuple[int, str]], size: tuple[int, int], notation: Notation, file: str
-) -> tuple[list[int], list[int], array[float]]:
+) -> tuple[list[int], list[int], Growing]:
     """Number and line of each frame, and all values one after the other."""
     numbers: list[int] = []
     lines: list[int] = []
-    values: array[float] = array("d")
+    values = Growing()
     row = size[0]
     for number, line in rows:
         text = _bare(line)

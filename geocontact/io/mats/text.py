@@ -4,22 +4,32 @@ from __future__ import annotations
 
 import csv
 import re
-from array import array
-from collections.abc import Iterable, Iterator
+from codecs import getincrementaldecoder
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from os import fspath
 from pathlib import Path
 
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import Growing
 from geocontact.io.mats.layout import MatLayout
-from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, UNKNOWN, lines, looks_like, read_bytes
+from geocontact.io.text.file_preflight import (
+    BYTE_ORDER_MARK,
+    MAX_BYTES,
+    PIECE,
+    UNKNOWN,
+    lines_in,
+    looks_like,
+    open_file,
+)
 
-LARGEST_RECORDING = 512_000_000
-"""Bytes of one file."""
+LARGEST_RECORDING = MAX_BYTES
+"""Bytes of one file; it is read a block at a time."""
 
-MOST_VALUES = 64_000_000
-"""Cells times frames of one mat: 128 cells at 100 Hz for 83 minutes, 0.5 GB."""
+MOST_VALUES = 512_000_000
+"""Cells times frames of one mat: 1000 cells at 100 Hz for 85 minutes, 4 GB of a temporary file."""
 
 HEAD = 1 << 16
 """Bytes in which a file has to show of what kind it is."""
@@ -33,44 +43,71 @@ _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 
 @dataclass(frozen=True)
 class MatText:
-    """A file's content and its path for messages; `encoding` is what its bytes are read with."""
+    """A file of text, read a block at a time.
+
+    Parameters
+    ----------
+    file
+        Its path.
+    start
+        Its first bytes, without a byte order mark.
+    whole
+        Whether these are all.
+    encoding
+        What its bytes are read with.
+    """
 
     file: str
-    data: bytes
+    start: bytes
+    whole: bool
     encoding: str
 
     @cached_property
     def head(self) -> tuple[str, ...]:
         """The lines at its beginning, blank ones too; none that is cut."""
-        found = [line.decode(self.encoding, "replace").strip(" ") for line in self.data[:HEAD].splitlines()]
-        return tuple(found[:-1] if len(self.data) > HEAD and len(found) > 1 else found)
+        found = [line.decode(self.encoding, "replace").strip(" ") for line in self.start.splitlines()]
+        return tuple(found if self.whole or len(found) == 1 else found[:-1])
 
     def lines(self) -> Iterator[tuple[int, str]]:
         """Number and text of every line that is not blank, without blanks around it; tabs at its end are cells."""
-        for number, line in enumerate(lines(self.data), 1):
-            if len(line) > LONGEST_LINE:
-                raise InputError(self.file, f"line {number}", "is too long", "is this the export of a mat?")
-            if text := line.decode(self.encoding, "replace").strip(" "):
-                yield number, text
+        with open_file(self.file) as stream:
+            for number, line in enumerate(lines_in(stream.read, LONGEST_LINE), 1):
+                own = line.removeprefix(BYTE_ORDER_MARK) if number == 1 else line
+                if len(own) > LONGEST_LINE:
+                    raise InputError(self.file, f"line {number}", "is too long", "is this the export of a mat?")
+                if text := own.decode(self.encoding, "replace").strip(" "):
+                    yield number, text
 
 
 def read_mat_text(path: Path) -> MatText:
     """Content of an export: text in UTF-8 or, as older programs write their `²`, in Windows-1252."""
     file = fspath(path)
-    data = read_bytes(path, LARGEST_RECORDING, "export it in parts").removeprefix(BYTE_ORDER_MARK)
-    if not data.strip():
+    with open_file(path, LARGEST_RECORDING, "export it in parts") as stream:
+        start = stream.read(HEAD + len(BYTE_ORDER_MARK)).removeprefix(BYTE_ORDER_MARK)
+        blank, binary, encoding = _surveyed(start, stream.read)
+    if blank:
         raise InputError(file, "", "the file is empty", "export it again")
-    what, _ = looks_like(data)
+    what, _ = looks_like(start)
     if what in ("plain text", UNKNOWN[0]):
-        what = "binary data" if b"\0" in data else ""
+        what = "binary data" if binary else ""
     if what:
         remedy = "export the recording as text (ASCII, CSV), or fetch the file itself"
         raise InputError(file, "", f"is not the recording of a mat: it looks like {what}", remedy)
-    try:
-        data.decode("utf-8")
-    except UnicodeDecodeError:
-        return MatText(file, data, "cp1252")
-    return MatText(file, data, "utf-8")
+    return MatText(file, start[:HEAD], len(start) < HEAD, encoding)
+
+
+def _surveyed(start: bytes, read: Callable[[int], bytes]) -> tuple[bool, bool, str]:
+    """Whether a file is blank, whether it has a NUL, and its encoding, from its first bytes and what follows."""
+    blank, binary, encoding = True, False, "utf-8"
+    decoder = getincrementaldecoder("utf-8")()
+    for piece in chain([start], iter(lambda: read(PIECE), b""), [b""]):
+        blank, binary = blank and not piece.strip(), binary or b"\0" in piece
+        try:
+            if encoding == "utf-8":
+                decoder.decode(piece, final=not piece)
+        except UnicodeDecodeError:
+            encoding = "cp1252"
+    return blank, binary, encoding
 
 
 @dataclass(frozen=True)
@@ -91,21 +128,20 @@ class Notation:
         except csv.Error:  # a quote left open before very many characters: one cell, and no number
             return [line]
 
-    def add(self, cells: list[str], values: array[float], file: str, line: int, missing: str = "") -> None:
+    def add(self, cells: list[str], values: Growing, file: str, line: int, missing: str = "") -> None:
         """Append the numbers in `cells` to `values`; NaN where a cell is blank or says `missing`."""
         if len(values) + len(cells) > MOST_VALUES:
             what = f"more than the {MOST_VALUES} values that are read"
             raise InputError(file, f"line {line}", what, "export it in parts")
-        start = len(values)
         try:
             text = cells if self.decimal == "." else [self._pointed(cell) for cell in cells]
-            values.extend(map(float, text))
+            numbers = list(map(float, text))
             plain = not any("_" in cell for cell in cells)
         except ValueError:
             plain = False
         if not plain:
-            del values[start:]
-            values.extend(self._number(cell, column, file, line, missing) for column, cell in enumerate(cells, 1))
+            numbers = [self._number(cell, column, file, line, missing) for column, cell in enumerate(cells, 1)]
+        values.extend(numbers)
 
     def number(self, text: str) -> float:
         """Number of one cell; ValueError when it is none. Python's `1_000` is none here, and neither is 1.234,5."""

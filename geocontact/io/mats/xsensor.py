@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 import re
-from array import array
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import Growing, parts
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.io.mats.cells import MatRecording, frames_of
 from geocontact.io.mats.layout import LARGEST, MOST_LINES, SMALLEST, MatLayout, area_unit, length_unit, pressure_unit
@@ -74,7 +75,9 @@ def pascals(said: Said | None, file: str) -> float | None:
     return factor
 
 
-def in_one_unit(values: array[float], said: Sequence[Said | None], unit: float | None, file: str) -> array[float]:
+def in_one_unit(
+    values: Float[np.ndarray, " n"], said: Sequence[Said | None], unit: float | None, file: str
+) -> Float[np.ndarray, " n"]:
     """Values of all frames in the unit of the first, `unit` [Pa].
 
     Frames whose own keys name another unit are converted where every frame names its unit; where some do not, it is
@@ -89,8 +92,10 @@ def in_one_unit(values: array[float], said: Sequence[Said | None], unit: float |
         what = f"Units is {shown(other[2])} and was not before, and {silent} frames of the sensor name none"
         remedy = "export the recording in one unit, or with Units above every frame"
         raise InputError(file, f"line {other[0]}", what, remedy)
-    frames = np.frombuffer(values, dtype=np.float64).reshape(len(said), -1)
-    return array("d", (frames * (np.array(factors, float) / unit)[:, None]).tobytes())
+    scale = np.array(factors, float) / unit
+    for frames, own in parts(values.reshape(len(said), -1), scale):
+        frames *= own[:, None]
+    return values
 
 
 KIND = "xsensor"
@@ -119,7 +124,7 @@ class _Sensor:
     frames: list[int | None] = field(default_factory=list)
     clock: list[float | None] = field(default_factory=list)
     units: list[tuple[int, str, str] | None] = field(default_factory=list)
-    values: array[float] = field(default_factory=lambda: array("d"))
+    values: Growing = field(default_factory=Growing)
 
 
 def is_xsensor(text: MatText) -> bool:
@@ -261,7 +266,7 @@ def _recording(name: str, sensor: _Sensor, start: tuple[float, int], layout: Mat
         name,
         _times(sensor, start, layout),
         sensor.lines,
-        in_one_unit(sensor.values, sensor.units, unit, file),
+        in_one_unit(sensor.values.values(), sensor.units, unit, file),
         unit,
         rows=sensor.size[0],
         columns=sensor.size[1],

@@ -14,7 +14,7 @@ import stat
 import warnings
 from array import array
 from codecs import getincrementaldecoder
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import TextIOWrapper
 from os import PathLike, fspath
 from os.path import islink
@@ -237,6 +237,20 @@ def lines(data: bytes, start: int = 0) -> Iterator[bytes]:
         stop = len(data) if cut < 0 else cut + 1
         yield from data[start:stop].splitlines()
         start = stop
+
+
+def lines_in(read: Callable[[int], bytes], longest: int) -> Iterator[bytes]:
+    """The same of an open file by its `read`, a block at a time; of a line beyond `longest` bytes only a beginning."""
+    rest = b""
+    while piece := read(BLOCK):
+        rest += piece
+        cut = 1 + max(rest.rfind(b"\n"), rest.rfind(b"\r", 0, -1))  # a CR at the end may be half of CR LF
+        yield from rest[:cut].splitlines()
+        rest = rest[cut:]
+        if len(rest) > longest:
+            yield rest
+            rest = b""
+    yield from rest.splitlines()
 
 
 def is_number(word: bytes) -> bool:

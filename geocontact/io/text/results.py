@@ -13,6 +13,7 @@ import pandas as pd
 from pandas.api.types import is_float_dtype
 
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import release
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
 from geocontact.data.text import is_late, seconds
@@ -137,3 +138,4 @@ def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Ma
         for start in range(0, max(1, len(table)), ROWS):
             shown = _with_texts(table.iloc[start : start + ROWS], late, DIGITS)
             shown.to_csv(file, index=False, header=not start, float_format=f"%.{DIGITS}g", lineterminator="\n")
+            release()
