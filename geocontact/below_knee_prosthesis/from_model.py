@@ -95,9 +95,10 @@ def model_leg(model: Multibody, standing: MarkerTrajectories, side: Side, source
 
 
 def with_toe(seen: MarkerTrajectories, standing: MarkerTrajectories, side: Side) -> MarkerTrajectories:
-    """Markers of a model with that over the keel's tip as it was on the socket while standing, of the person's own side.
+    """Markers of a model with that over the keel's tip, where it was on the socket while standing.
 
-    A keel that does not bend: enough to see whether foot and floor are at one height.
+    A keel that does not bend: enough to see whether foot and floor are at one height. `seen` and `standing` are of the
+    person's own side.
     """
     toe, names = _own(FOOT[1], side), tuple(_own(name, side) for name in BODIES["shank"])
     places = np.nanmedian(standing.of((*names, toe)), axis=0)

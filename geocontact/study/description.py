@@ -181,6 +181,8 @@ class StepSettings(Document):
         Names: one evaluation for each combination of their values, `[]` for one over all; by default for each trial.
     where
         Values that its trials have; all trials by default.
+    needs
+        Files, which may hold `{name}`: an evaluation without one of them is left out, and `--dry-run` names it.
     limits
         What each evaluation may take, where that differs from the study's.
     """
@@ -189,6 +191,7 @@ class StepSettings(Document):
     options: Mapping[str, Any] = {}
     per: Names | None = None
     where: Mapping[str, Values] = {}
+    needs: Names = ()
     limits: LimitSettings = LimitSettings()
 
 
@@ -217,7 +220,7 @@ class StudyFile(Document):
         Trials that are not evaluated: those that have all of these values.
     steps
         Analyses before it, by name.
-    per, where
+    per, where, needs
         As of a step.
     pages, figures
         Whether each trial has them.
@@ -243,6 +246,7 @@ class StudyFile(Document):
     steps: dict[FileName, StepSettings] = Field(default_factory=dict)
     per: Names | None = None
     where: Mapping[str, Values] = {}
+    needs: Names = ()
     pages: bool = True
     figures: bool = True
     summary: SummarySettings = SummarySettings()
@@ -275,7 +279,7 @@ class StudyFile(Document):
     def own(self) -> StepSettings:
         """The analysis as the last step."""
         return StepSettings.model_construct(
-            analysis=self.analysis, options=self.options, per=self.per, where=self.where
+            analysis=self.analysis, options=self.options, per=self.per, where=self.where, needs=self.needs
         )
 
     @property

@@ -43,8 +43,8 @@ class RecordedWalk:
     Parameters
     ----------
     standing, moving, seen
-        Markers while standing, of the functional trial (None without one), and while walking: recorded ones, or those of
-        a model along its coordinates.
+        Markers while standing, of the functional trial (None without one), and while walking: recorded, or those of a
+        model along its coordinates.
     mass
         Of the person [kg].
     joints
