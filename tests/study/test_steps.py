@@ -201,7 +201,7 @@ def test_a_link_that_nobody_gave_is_left_out_and_named_before_anything_runs(tmp_
     assert "tests_study_chained_add of B: needs sine of B 1" in planned.err
     assert ", after sum: 0 of 4 evaluations there; 2 to evaluate; 2 left out of this run" in planned.out
     done = cohort(file, out, scheduler)
-    assert done.code == 0 and "sine of B 2 is left out: needs B_given.dat, which is not there" in done.err
+    assert done.code == 0 and "sine of B 1 … 2 is left out: needs B_given.dat, which is not there" in done.err
     found = states(out)["state"]
     assert found["sine", "A 1"] == found["all", "all"] == found["tests_study_chained_add", "A"] == "done"
     assert found["sine", "B 1"] == found["tests_study_chained_add", "B"] == "without input"
