@@ -111,11 +111,11 @@ class SummarySettings(Document):
     over
         Column that a curve is over; its span is 0 to 100 % of the curve.
     where
-        Values of columns that choose the rows of a curve, such as one threshold of several; the first by default.
+        Values of columns whose rows make a curve; the first by default.
     subject
-        Name under which a trial has its subject: trials of one are averaged before subjects are compared.
+        Name of a trial's subject: its trials are averaged first.
     condition
-        Name under which a trial has what is compared.
+        Name of what is compared.
     """
 
     table: str = ""
@@ -182,7 +182,7 @@ class StepSettings(Document):
     where
         Values that its trials have; all trials by default.
     needs
-        Files, which may hold `{name}`: an evaluation without one of them is left out, and `--dry-run` names it.
+        Files, which may hold `{name}`; without one of them it is left out.
     limits
         What each evaluation may take, where that differs from the study's.
     """
@@ -201,7 +201,7 @@ class StudyFile(Document):
     Parameters
     ----------
     analysis
-        The analysis as its command is typed; of several steps the last one.
+        A command as typed; of several steps the last.
     title
         Heading of the page; the file's name by default.
     options

@@ -145,7 +145,8 @@ def test_joints_and_markers_of_a_model_are_those_it_was_made_of(side: Any) -> No
     ("changed", "words"),
     [
         ({"model": None}, "`model`: is missing with `coordinates`"),
-        ({"coordinates": None}, "neither markers nor `coordinates`"),
+        ({"coordinates": None}, "`model`: has no effect without `coordinates`"),
+        ({"coordinates": None, "model": None}, "neither markers nor `coordinates`"),
         ({"functional": TRIAL / "functional.trc"}, "the hip's centre is the model's"),
         ({"walks": 10}, "without its errors"),
         ({"model": MESHES / "leg.osim", "coordinates": MESHES / "leg_swing.mot"}, "has no marker RASI"),
