@@ -53,8 +53,8 @@ def moved(file: Path) -> pd.DataFrame:
 def test_two_knees_from_markers_to_their_modulus(tmp_path: Path) -> None:
     """Against what the samples were made of, in closed form: sizes, angles, depths, caps, forces and E*.
 
-    A ball d deep overlaps in a cap of 2 pi R d; facets of 2 mm cost 6 % of E* and 4 % of the largest area. A layer of
-    oedometric modulus K, thin as it is against the patch, bears K pi R d^2 / h (Winkler; Johnson 1985, 4.3), and its E*
+    A ball d deep overlaps in a cap of 2 pi R d. Its facets of 2 mm leave 5 % less at the largest depth, so a depth that
+    is 5 % less, and with the power 3/2 an E* that is 9 % more (16.3 MPa of 15). A layer of oedometric modulus K, thin as it is against the patch, bears K pi R d^2 / h (Winkler; Johnson 1985, 4.3), and its E*
     is the least squares of that on Hertz's 4/3 sqrt(R) d^1.5.
     """
     out = tmp_path / "out"
@@ -82,11 +82,11 @@ def test_two_knees_from_markers_to_their_modulus(tmp_path: Path) -> None:
         area = pd.read_csv(out / own["contact"] / "area.csv", comment="#")
         np.testing.assert_allclose(-1e-3 * area["min_distance [mm]"], deep, atol=0.05e-3)
         cap = 2.0 * np.pi * 1e-3 * radius * deep
-        assert area["area_moving [mm^2]"].max() == pytest.approx(1e6 * cap.max(), rel=0.08)
+        assert area["area_moving [mm^2]"].max() == pytest.approx(0.95 * 1e6 * cap.max(), rel=0.03)
         cells = pd.read_csv(MESHES / f"knee_leg_{name}" / "force.csv", comment="#")["total [N]"]
         hertz = 4.0 / 3.0 * np.sqrt(1e-3 * radius) * deep**1.5
         np.testing.assert_allclose(cells, modulus * hertz, rtol=1e-3)
-        assert e_star(out / own["modulus"]) == pytest.approx(modulus, rel=0.08)
+        assert e_star(out / own["modulus"]) == pytest.approx(1.085 * modulus, rel=0.04)
         young, nu, thick = 5e6, 0.46, 0.012
         layer = (1.0 - nu) * young / ((1.0 + nu) * (1.0 - 2.0 * nu)) * np.pi * 1e-3 * radius * deep**2 / thick
         wanted = float((hertz * layer).sum() / (hertz * hertz).sum())
