@@ -128,6 +128,7 @@ def test_knees_of_two_laboratories_have_options_of_their_own(data_dir: Path, tmp
 STUDIES = Path(__file__).parents[2] / "docs" / "how-to" / "studies"
 
 
+@pytest.mark.filterwarnings("ignore:.*taken as not seen")
 def test_missing_links_of_real_knees_are_named_by_a_dry_run(data_dir: Path, tmp_path: Path) -> None:
     """What they need is not there; and no marker at a knee or ankle of either walk is seen in any frame."""
     study = STUDIES / "real_knees.toml"
