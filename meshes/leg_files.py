@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 GRAVITY = 9.80665
@@ -22,9 +24,9 @@ SWING = {"hip_z": (10.0, 25.0, 0.0), "knee": (-35.0, 30.0, 0.25), "ankle": (0.0,
 
 def leg_model() -> str:
     """OpenSim 4 model: x forward, y up, z to the right."""
-    bodies = "\n".join(_body(*each) for each in BODIES.items())
-    joints = "\n".join(_joint(*each) for each in JOINTS)
-    markers = "\n".join(_marker(body, k) for body in BODIES for k in range(len(PLACES)))
+    bodies = "\n".join(body(*each) for each in BODIES.items())
+    joints = "\n".join(joint(*each) for each in JOINTS)
+    markers = "\n".join(marker(name, k) for name in BODIES for k in range(len(PLACES)))
     return f"""<?xml version="1.0"?>
 <OpenSimDocument Version="40000"><Model name="synthetic_leg">
 <credits>Synthetic sample leg of geocontact: no subject, no patient.</credits>
@@ -49,31 +51,62 @@ def leg_swing() -> str:
     columns = {name: np.zeros(FRAMES) for name in names} | {"ty": np.full(FRAMES, 1.0)}
     for name, (mean, amplitude, phase) in SWING.items():
         columns[name] = mean + amplitude * np.sin(2.0 * np.pi * (time / time[-1] + phase))
-    head = ["synthetic leg swing", "version=1", f"nRows={FRAMES}", f"nColumns={len(names) + 1}", "inDegrees=yes"]
-    rows = [*head, "endheader", "\t".join(["time", *names])]
+    return motion_text("synthetic leg swing", time, columns)
+
+
+def motion_text(name: str, time: np.ndarray, columns: Mapping[str, np.ndarray]) -> str:
+    """OpenSim `.mot` of coordinates [deg, m]."""
+    head = [name, "version=1", f"nRows={len(time)}", f"nColumns={len(columns) + 1}", "inDegrees=yes"]
+    rows = [*head, "endheader", "\t".join(["time", *columns])]
     for k, t in enumerate(time):
-        rows.append("\t".join([f"{t:.2f}", *(f"{columns[name][k] + 0.0:.9f}" for name in names)]))
+        rows.append("\t".join([f"{t:.2f}", *(f"{values[k] + 0.0:.9f}" for values in columns.values())]))
     return "\n".join(rows) + "\n"
 
 
-def _body(name: str, mass: float) -> str:
-    inertia = f"{0.02 * mass} {0.01 * mass} {0.015 * mass} 0 0 0"
-    return f"""<Body name="{name}"><mass>{mass}</mass><mass_center>0 -0.15 0</mass_center>
-<inertia>{inertia}</inertia></Body>"""
+def body(name: str, mass: float, size: float = 1.0) -> str:
+    """A body; `size` is that over the one whose mass is in its middle at y = -0.15 m."""
+    inertia = " ".join(f"{round(share * mass * size**2, 12)}" for share in (0.02, 0.01, 0.015))
+    return f"""<Body name="{name}"><mass>{mass}</mass><mass_center>0 {-0.15 * size:.9g} 0</mass_center>
+<inertia>{inertia} 0 0 0</inertia></Body>"""
 
 
-def _joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], coordinates: tuple[str, ...]) -> str:
-    path = "/ground" if parent == "ground" else f"/bodyset/{parent}"
+def joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], coordinates: tuple[str, ...]) -> str:
+    """A joint at a place of its parent, in the child's origin."""
     held = "".join(f'<Coordinate name="{c}"/>' for c in coordinates)
+    return _joint(kind, name, parent, child, at, f"<coordinates>{held}</coordinates>")
+
+
+def custom_joint(name: str, parent: str, child: str, coordinates: tuple[str, ...]) -> str:
+    """A joint that turns about z by the first coordinate, and shifts along x, y and z of the parent by the others."""
+    held = "".join(f'<Coordinate name="{c}"/>' for c in coordinates)
+    rows = [("rotation1", coordinates[0], "0 0 1"), ("rotation2", "", "1 0 0"), ("rotation3", "", "0 1 0")]
+    shifts = zip("123", coordinates[1:], ("1 0 0", "0 1 0", "0 0 1"), strict=True)
+    rows += [(f"translation{k}", own, axis) for k, own, axis in shifts]
+    axes = "\n".join(_axis(*each) for each in rows)
+    inside = f"<coordinates>{held}</coordinates><SpatialTransform>\n{axes}\n</SpatialTransform>"
+    return _joint("CustomJoint", name, parent, child, (0, 0, 0), inside)
+
+
+def _axis(name: str, coordinate: str, axis: str) -> str:
+    function = '<LinearFunction name="function"><coefficients>1 0</coefficients></LinearFunction>'
+    if not coordinate:
+        function = '<Constant name="function"><value>0</value></Constant>'
+    return f"""<TransformAxis name="{name}"><coordinates>{coordinate}</coordinates><axis>{axis}</axis>
+{function}</TransformAxis>"""
+
+
+def _joint(kind: str, name: str, parent: str, child: str, at: tuple[float, ...], inside: str) -> str:
+    path = "/ground" if parent == "ground" else f"/bodyset/{parent}"
     return f"""<{kind} name="{name}"><socket_parent_frame>{name}_in</socket_parent_frame>
-<socket_child_frame>{name}_out</socket_child_frame><coordinates>{held}</coordinates><frames>
+<socket_child_frame>{name}_out</socket_child_frame>{inside}<frames>
 <PhysicalOffsetFrame name="{name}_in"><socket_parent>{path}</socket_parent>
 <translation>{" ".join(map(str, at))}</translation></PhysicalOffsetFrame>
 <PhysicalOffsetFrame name="{name}_out"><socket_parent>/bodyset/{child}</socket_parent></PhysicalOffsetFrame>
 </frames></{kind}>"""
 
 
-def _marker(body: str, k: int) -> str:
-    place = " ".join(map(str, PLACES[k]))
-    return f"""<Marker name="{body}{k}"><socket_parent_frame>/bodyset/{body}</socket_parent_frame>
+def marker(of: str, k: int, size: float = 1.0) -> str:
+    """One of the four markers of a body of that size."""
+    place = " ".join(str(x if size == 1.0 else round(size * x, 9)) for x in PLACES[k])
+    return f"""<Marker name="{of}{k}"><socket_parent_frame>/bodyset/{of}</socket_parent_frame>
 <location>{place}</location></Marker>"""

@@ -13,8 +13,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
-from meshes.ball_press import ball_press
 from meshes.gait import synthetic_gait
+from meshes.knee_leg import knee_leg_files
 from meshes.leg_files import leg_model, leg_swing
 from meshes.mat_files import recording_files
 from meshes.mat_recordings import recordings
@@ -53,8 +53,9 @@ def all_knee_files() -> dict[str, bytes]:
 
 
 def leg_files() -> dict[str, bytes]:
-    """A leg with markers, and how it swings."""
-    return {"leg.osim": leg_model().encode("ascii"), "leg_swing.mot": leg_swing().encode("ascii")}
+    """Legs with markers, and how they swing."""
+    texts = {"leg.osim": leg_model(), "leg_swing.mot": leg_swing(), **knee_leg_files()}
+    return {name: text.encode("ascii") for name, text in texts.items()}
 
 
 def gait_files() -> dict[str, bytes]:
@@ -94,8 +95,7 @@ def overhead_files() -> dict[str, bytes]:
 
 def committed_files() -> dict[str, bytes]:
     """Every generated file that belongs to the repository."""
-    press = {"ball_press.csv": ball_press().encode("ascii")}
-    return all_knee_files() | simple_files() | press | gait_files() | leg_files() | mat_files() | overhead_files()
+    return all_knee_files() | simple_files() | gait_files() | leg_files() | mat_files() | overhead_files()
 
 
 def differing(files: dict[str, bytes], folder: Path) -> list[str]:

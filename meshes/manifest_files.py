@@ -37,9 +37,12 @@ FOLDER_KINDS = {
     "hard": "recording",
     "body": "model",
     "ik": "motion",
+    "leg": "model",
+    "swing": "motion",
+    "force": "recording",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "overhead_*", "standing_up*", "whole_body")
+FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "knee_leg_*", "overhead_*", "standing_up*", "whole_body")
 """Of recordings and trials, in the order of the manifest."""
 
 

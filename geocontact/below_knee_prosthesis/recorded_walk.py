@@ -18,6 +18,7 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import keel_poses
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, longest_stance
 from geocontact.below_knee_prosthesis.from_markers import Walked, standing_hip, standing_leg, walked
+from geocontact.below_knee_prosthesis.from_model import ModelLeg
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import AS_STOOD, FootOffset, Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
@@ -128,6 +129,7 @@ def fitted_walk(
     *,
     plate: PlateStance | None = None,
     moving: MarkerTrajectories | None = None,
+    joints: ModelLeg | None = None,
     ground: HalfSpace | Stairs = FLOOR,
     offset: FootOffset = AS_STOOD,
     cutoff: float | None = CUTOFF,
@@ -147,6 +149,8 @@ def fitted_walk(
         Plates under the intact foot, whose force stands for the other leg, and under the prosthetic one, where known.
     moving
         Markers of a functional trial, which tells the hip's centre better than the regression.
+    joints
+        Hip and knee of a model of the person, in place of those of the trials.
     ground
         That both feet walk on.
     offset
@@ -164,7 +168,9 @@ def fitted_walk(
     under the foot, or on another clock.
     """
     hip = None if moving is None else standing_hip(standing, moving)
-    stood = standing_leg(standing, person, foot.keel, foot.record.below, None if hip is None else hip.first)
+    centre = None if hip is None else hip.first
+    given = (centre, None) if joints is None else (joints.hip, (joints.knee, joints.across))
+    stood = standing_leg(standing, person, foot.keel, foot.record.below, *given)
     leg = (stood if residual is None else with_residual(stood, residual)).with_foot(offset)
     fit = walked(seen, leg, cutoff=cutoff, gap_limit=gap_limit)
     _require_fit(seen, fit)

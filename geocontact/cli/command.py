@@ -183,7 +183,8 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     left = list(arguments)
     for one in known:
         if argument(one):
-            found[key(one)] = tuple(left.pop(0) for _ in range(len(left))) if one.several else left.pop(0)
+            several = tuple(left.pop(0) for _ in range(len(left))) if one.several else ()
+            found[key(one)] = several if one.several else left.pop(0) if left else _default(one)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
         else:
@@ -226,7 +227,9 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     """One argument, or as many as there are; the first one is asked for where there is no default."""
     told = {"help": spell(one.words)}
     if not one.several:
-        return [_parameter(one.name, inspect.Parameter.POSITIONAL_ONLY, one.kind, told)]
+        kind = one.kind | None if one.optional else one.kind
+        single = _parameter(one.name, inspect.Parameter.POSITIONAL_ONLY, kind, told)
+        return [single if one.required else single.replace(default=_default(one))]
     many = _parameter(one.name, inspect.Parameter.VAR_POSITIONAL, Path, told)
     if not one.required:
         return [many]

@@ -111,11 +111,11 @@ class SummarySettings(Document):
     over
         Column that a curve is over; its span is 0 to 100 % of the curve.
     where
-        Values of columns that choose the rows of a curve, such as one threshold of several; the first by default.
+        Values of columns whose rows make a curve; the first by default.
     subject
-        Name under which a trial has its subject: trials of one are averaged before subjects are compared.
+        Name of a trial's subject: its trials are averaged first.
     condition
-        Name under which a trial has what is compared.
+        Name of what is compared.
     """
 
     table: str = ""
@@ -181,6 +181,8 @@ class StepSettings(Document):
         Names: one evaluation for each combination of their values, `[]` for one over all; by default for each trial.
     where
         Values that its trials have; all trials by default.
+    needs
+        Files, which may hold `{name}`; without one of them it is left out.
     limits
         What each evaluation may take, where that differs from the study's.
     """
@@ -189,6 +191,7 @@ class StepSettings(Document):
     options: Mapping[str, Any] = {}
     per: Names | None = None
     where: Mapping[str, Values] = {}
+    needs: Names = ()
     limits: LimitSettings = LimitSettings()
 
 
@@ -198,7 +201,7 @@ class StudyFile(Document):
     Parameters
     ----------
     analysis
-        The analysis as its command is typed; of several steps the last one.
+        A command as typed; of several steps the last.
     title
         Heading of the page; the file's name by default.
     options
@@ -217,7 +220,7 @@ class StudyFile(Document):
         Trials that are not evaluated: those that have all of these values.
     steps
         Analyses before it, by name.
-    per, where
+    per, where, needs
         As of a step.
     pages, figures
         Whether each trial has them.
@@ -243,6 +246,7 @@ class StudyFile(Document):
     steps: dict[FileName, StepSettings] = Field(default_factory=dict)
     per: Names | None = None
     where: Mapping[str, Values] = {}
+    needs: Names = ()
     pages: bool = True
     figures: bool = True
     summary: SummarySettings = SummarySettings()
@@ -275,7 +279,7 @@ class StudyFile(Document):
     def own(self) -> StepSettings:
         """The analysis as the last step."""
         return StepSettings.model_construct(
-            analysis=self.analysis, options=self.options, per=self.per, where=self.where
+            analysis=self.analysis, options=self.options, per=self.per, where=self.where, needs=self.needs
         )
 
     @property

@@ -119,10 +119,22 @@ class StudyPlan:
         """
         analyses = list(dict.fromkeys(one.run.analysis for one in self.evaluations))
         self._consent([f"the module of {each!r}" for each in analyses if foreign(each)], said=False)
+        self._leave_out()
         for k, one in enumerate(self.evaluations):
             if one.outcome is None and not one.address:
                 self._settle(k)
         self._consent(self._named, said=True)
+
+    def _leave_out(self) -> None:
+        """End what needs a file that is not there, and all that takes from it, whatever else that waits for."""
+        for k, one in enumerate(self.evaluations):  # each after those that it takes from
+            missing = one.run.missing(self.study.home)
+            sources = [self.evaluations[j] for some in one.run.takes.values() for j in some]
+            lacking = next((each for each in sources if each.state == WITHOUT), None)
+            if missing is not None:
+                self._end(k, TrialOutcome(WITHOUT, f"needs {missing}, which is not there"))
+            elif lacking is not None and one.outcome is None:
+                self._end(k, TrialOutcome(WITHOUT, f"needs {lacking.run.step} of {lacking.trial.name}"))
 
     def _consent(self, named: Sequence[str], *, said: bool) -> None:
         own = [one.run.analysis for one in self.evaluations if foreign(one.run.analysis)] if said else []
@@ -148,7 +160,7 @@ class StudyPlan:
         """Find what becomes of an evaluation whose inputs may be known, and of those that wait for it."""
         one = self.evaluations[k]
         sources = [self.evaluations[j] for some in one.run.takes.values() for j in some]
-        if any(each.outcome is None for each in sources):
+        if one.outcome is not None or any(each.outcome is None for each in sources):
             return
         lacking = next((each for each in sources if each.state != DONE), None)
         if lacking is not None:

@@ -391,6 +391,9 @@ def _looked_at(
     if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
         count = len(trials) + len(earlier)
         raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
+    for each in plan.evaluations:
+        if each.run.missing(planned.file.home) is not None and each.outcome is not None:
+            reserve(f"{each.run.step} of {each.trial.name} is left out: {each.outcome.line}")
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
     _clean(planned, plan, store, o)

@@ -12,9 +12,10 @@ from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
+from geocontact.analyses.frame.options import leads_nowhere
 from geocontact.data.errors import InputError
 from geocontact.io.documents import Value
 from geocontact.study.description import StepSettings, StudyFile
@@ -44,6 +45,8 @@ class StepRun:
         Numbers of the trials that it is of.
     takes
         Places of the evaluations that it takes from in the list of all, by the name of their step.
+    needs
+        Files without which it is left out, as paths from the study's folder.
     """
 
     step: str
@@ -51,6 +54,11 @@ class StepRun:
     trial: CohortTrial
     trials: frozenset[int]
     takes: Mapping[str, tuple[int, ...]]
+    needs: tuple[str, ...] = ()
+
+    def missing(self, home: Path) -> str | None:
+        """The first file that it needs and that is not there."""
+        return next((each for each in self.needs if leads_nowhere(home / each)), None)
 
 
 def runs_of(study: StudyFile) -> list[StepRun]:
@@ -158,7 +166,10 @@ def _run(study: StudyFile, name: str, step: StepSettings, numbers: Sequence[int]
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
     words = [str(value) for each, value in factors.items() if step.per is None or each in step.per]
     title = " ".join(words) or ("all" if step.per is not None else study.path.stem)
-    return StepRun(name, step.analysis, CohortTrial(title, factors, {**options, **swept}), frozenset(numbers), {})
+    needs = tuple(str(filled(study, "needs", each, given, place)) for each in step.needs)
+    return StepRun(
+        name, step.analysis, CohortTrial(title, factors, {**options, **swept}), frozenset(numbers), {}, needs
+    )
 
 
 def _shared(values: Sequence[Value]) -> Value | Several:

@@ -99,11 +99,13 @@ trials = [{ subject = "P1", walk = 3, options = { split = "z", side = "left" } }
 leave_out = [{ subject = "P2", condition = "fast" }]
 per = ["subject", "condition", "threshold"]
 where = { condition = ["slow"] }
+needs = ["a.stl"]
 pages = false
 figures = false
 steps.ik.analysis = "ik"
 steps.ik.per = ["subject"]
 steps.ik.where = { condition = ["slow"] }
+steps.ik.needs = ["a.osim"]
 steps.ik.options = { markers = "a.csv", model = "a.osim" }
 steps.ik.limits = { time = { value = 60, unit = "s" }, memory = "1GB", cores = 2 }
 [options]

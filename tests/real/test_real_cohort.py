@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.io.mocap.markers import read_markers
 from tests.cli.calls import call, done, written
 
 STANCE = {"Norm_01": (10, 133), "Norm_03": (17, 177)}
@@ -126,14 +128,42 @@ def test_knees_of_two_laboratories_have_options_of_their_own(data_dir: Path, tmp
 STUDIES = Path(__file__).parents[2] / "docs" / "how-to" / "studies"
 
 
+@pytest.mark.filterwarnings("ignore:.*taken as not seen")
+def test_missing_links_of_real_knees_are_named_by_a_dry_run(data_dir: Path, tmp_path: Path) -> None:
+    """What they need is not there; and no marker at a knee or ankle of either walk is seen in any frame."""
+    study = STUDIES / "real_knees.toml"
+    planned = call("cohort", study, "--folder", data_dir, "--dry-run", "--out", tmp_path / "out", folder=tmp_path)
+    assert planned.code == 0
+    for line in (
+        "scale of JW: needs gc4_jw_knee/c3d/jw_static.c3d, which is not there",
+        "scale of DM: needs gc6_dm_knee/gait/DM_static.trc, which is not there",
+        "id of DM: needs ik of DM",
+        "poses_og3 of JW: needs gc4_jw_knee/poses/jw_ngait_og3.csv, which is not there",
+        "modulus_og3 of JW: needs poses_og3 of JW",
+        "modulus_DM of DM: needs gc6_dm_knee/knee_forces/DM_fluoroscopy_knee_forces.csv, which is not there",
+    ):
+        assert line in planned.err
+    for name, count in (("gc4_jw_knee/c3d/jw_ngait_og3.c3d", 0), ("gc6_dm_knee/gait/DM_ngait_og1_new.trc", 8)):
+        seen = read_markers(data_dir / name)
+        joints = [k for k, each in enumerate(seen.names) if re.search("knee|ankle", each, re.IGNORECASE)]
+        assert len(joints) == count and not np.isfinite(seen.positions[:, joints]).any()
+
+
 @pytest.mark.slow
 def test_two_real_knees_and_a_walk_in_one_study(data_dir: Path, tmp_path: Path) -> None:
-    """E* of JW is that of the same files typed one after the other, and the least squares of force on a^3."""
+    """What recordings have is evaluated, the rest is left out by name.
+
+    E* of JW is that of the same files typed one after the other, and the least squares of force on a^3.
+    """
     out = tmp_path / "out"
     study = STUDIES / "real_knees.toml"
     made = done(call("cohort", study, "--folder", data_dir, "--workers", "1", "--out", out, folder=out))
     rows = made.table("trials.csv").set_index("step")
-    assert list(rows.index) == ["scale", "ik", "id", "poses", "pressure", "modulus"] and set(rows["state"]) == {"done"}
+    state = made.table("trials.csv").set_index(["step", "name"])["state"]
+    done_steps = {("cells", "JW"), ("poses", "JW"), ("modulus", "JW"), ("pressure", "DM")}
+    done_steps |= {(step, "subject01") for step in ("scale", "ik", "id")}
+    assert {*state[state == "done"].index} == done_steps and set(state) == {"done", "without input"}
+    rows = rows[rows["state"] == "done"]
     found = json.loads((out / rows["folder"]["modulus"] / "modulus.json").read_text(encoding="utf-8"))
     assert found["E_star_Pa"] == pytest.approx(1.53e6, rel=0.02)
     area = pd.read_parquet(out / "tables" / "poses" / "area.parquet")

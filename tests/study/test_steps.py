@@ -190,6 +190,27 @@ def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, sc
     assert found["tests_study_chained_add", "B"] == "done" and found["sum", "A 2"] == "not asked for"
 
 
+def test_a_link_that_nobody_gave_is_left_out_and_named_before_anything_runs(tmp_path: Path, scheduler: str) -> None:
+    """With all that takes from it, also from steps that are to be evaluated; nothing of it once the file is there."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("[steps.sine]\n", '[steps.sine]\nneeds = ["{subject}_given.dat"]\n'), encoding="utf-8")
+    (tmp_path / "A_given.dat").write_text("", encoding="utf-8")
+    planned = cohort(file, out, scheduler, "--dry-run")
+    assert planned.code == 0 and "sine of B 1: needs B_given.dat, which is not there" in planned.err
+    assert "tests_study_chained_add of B: needs sine of B 1" in planned.err
+    assert ", after sum: 0 of 4 evaluations there; 2 to evaluate; 2 left out of this run" in planned.out
+    done = cohort(file, out, scheduler)
+    assert done.code == 0 and "sine of B 1 … 2 is left out: needs B_given.dat, which is not there" in done.err
+    found = states(out)["state"]
+    assert found["sine", "A 1"] == found["all", "all"] == found["tests_study_chained_add", "A"] == "done"
+    assert found["sine", "B 1"] == found["tests_study_chained_add", "B"] == "without input"
+    (tmp_path / "B_given.dat").write_text("", encoding="utf-8")
+    done = cohort(file, out, scheduler)
+    assert set(states(out)["state"]) == {"done"} and "left out" not in done.err
+    assert new(done) == [0, 0, 2, 0, 1]
+
+
 def test_what_failed_is_redone_after_a_run_that_left_it(tmp_path: Path, scheduler: str) -> None:
     file, out = chain(tmp_path, {**NUMBERS, "A_1": "wrong", "B_1": "wrong"}), tmp_path / "out"
     assert cohort(file, out, scheduler).code == 2

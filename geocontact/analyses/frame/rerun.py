@@ -30,6 +30,8 @@ class EarlierRun:
         As it is typed.
     options
         As recorded: as typed where it was a command, else in SI with units in the names.
+    recorded_si
+        Options in SI, with units in the names.
     typed
         Whether it was a command.
     inputs
@@ -41,13 +43,14 @@ class EarlierRun:
     folder: Path
     command: str
     options: Mapping[str, Any]
+    recorded_si: Mapping[str, Any]
     typed: bool
     inputs: Mapping[Path, str]
     version: str
 
     def in_si(self) -> dict[str, Any]:
-        """Options by their names in Python, where it was called from there."""
-        return {_UNIT.sub("", name): value for name, value in self.options.items()}
+        """Options by their names in Python."""
+        return {_UNIT.sub("", name): value for name, value in self.recorded_si.items()}
 
     def changed(self) -> list[Path]:
         """Inputs whose content is another one now; InputError for one that is not there."""
@@ -66,8 +69,11 @@ def read_run(path: str | PathLike[str]) -> EarlierRun:
         raise InputError(file, "", f"is not a {RUN} of geocontact", REMEDY)
     named = [each for each in inputs if isinstance(each, dict) and isinstance(each.get("file"), str)]
     known = {Path(each["file"]): str(each.get("sha256")) for each in named}
-    typed = options != told.get("options_si")
-    return EarlierRun(file.parent, command, options, typed, known, str(told.get("geocontact", "")))
+    recorded_si = told.get("options_si", options)
+    if not isinstance(recorded_si, dict):
+        raise InputError(file, "options_si", f"is not of a {RUN} of geocontact", REMEDY)
+    typed = options != recorded_si
+    return EarlierRun(file.parent, command, options, recorded_si, typed, known, str(told.get("geocontact", "")))
 
 
 def results_of(folder: Path) -> dict[str, str]:

@@ -157,9 +157,9 @@ OWN = np.arange(0.0, 0.95, 0.002)
 def studied(name: str, setting: str, lasting: float = 0.7) -> Any:
     """A stance of a study whose simulation is made up: the plate's force over another time [s]."""
     stance = a_stance(OWN, walked(0.1 + (OWN - 0.1) * 0.7 / lasting))
-    trial = SimpleNamespace(name=name, person="P", foot=setting, calibrated=False)
-    person = SimpleNamespace(side="right")
-    return SimpleNamespace(walk=stance, asked=None, recorded=name, plate=plate_of(OWN), person=person, trial=trial)
+    whose = {"name": name, "person": "P", "setting": setting, "calibrated": False}
+    asked = SimpleNamespace(side="right", score="stance")
+    return SimpleNamespace(**whose, walk=stance, asked=asked, recorded=name, plate=plate_of(OWN))
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Length, Requires
-from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.marks import C3dUnit, Excludes, Expression, Length, Requires
+from geocontact.analyses.frame.options import Options, declared
 from geocontact.analyses.prosthesis.ranges import TURNS, require_one_socket, require_turns, require_walks
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, SHIFT
@@ -21,6 +21,9 @@ class ProsthesisCompareOptions(Options):
     ----------
     study
         Persons and trials (.toml), with markers, plates and the setting of the foot.
+    runs
+        Stances of `prosthesis simulate` in place of a study, each by its run.json: simulated again as they were. A
+        person is who has one standing trial. May be given again.
 
     The motion
     ----------
@@ -74,8 +77,9 @@ class ProsthesisCompareOptions(Options):
     numbers of each stance, a figure, report.html and run.json into OUT.
     """
 
-    study: Path
+    study: Path | None = None
     _: KW_ONLY
+    runs: Annotated[tuple[Path, ...], Excludes("study", "both describe the stances", "give one of them")] = ()
     cutoff: Annotated[float, CUTOFF] = 6.0
     socket_turns: int = TURNS
     gap_limit: Annotated[float, GAP] = 0.2
@@ -92,10 +96,26 @@ class ProsthesisCompareOptions(Options):
     machine_code: bool = False
     workers: int | None = None
 
+    @property
+    def source(self) -> Path:
+        """What describes the stances."""
+        return self.study or (self.runs or (Path(),))[0]
+
     def refuse_impossible(self) -> None:
-        """No process at all, a negative number of fits."""
+        """No stances, no process at all, a negative number of fits."""
+        if self.study is None and not self.runs:
+            raise InputError("", "`study`", "no stances are described", "give a study (.toml), or `runs`")
+        if self.runs:
+            self._refuse_own()
         require_turns(self.socket_turns)
         require_walks(self.walks)
         require_one_socket(self.socket, self.socket_numbers)
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one process", "give 1 or more")
+
+    def _refuse_own(self) -> None:
+        """InputError for an option of the simulation beside runs that have it already."""
+        for one in declared(type(self)):
+            if one.name not in ("study", "runs", "workers") and getattr(self, one.name) != one.default:
+                what = "has no effect with `runs`: each is simulated as it was"
+                raise InputError("", f"`{one.name}`", what, "give it to `prosthesis simulate`")

@@ -154,25 +154,26 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
             if isinstance(became, BaseException):
                 raise became
             if isinstance(became, str):
-                reserve(f"{one.trial.name} is left out: {became}")
+                reserve(f"{one.name} is left out: {became}")
             else:
-                found[one.trial.name] = became.limb.stance
+                found[one.name] = became.limb.stance
                 if became.no_band:
-                    reserve(f"{one.trial.name} has no band: {became.no_band}")
+                    reserve(f"{one.name} has no band: {became.no_band}")
                 if became.band is not None:
-                    bands[one.trial.name] = became.band
+                    bands[one.name] = became.band
                 if not became.limb.settled:
-                    reserve(f"{one.trial.name}: {counted_twice(became.limb)}")
+                    reserve(f"{one.name}: {counted_twice(became.limb)}")
             step()
     if not found:
-        raise InputError(o.study, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
-    known = [(one, found[one.trial.name]) for one in given if one.trial.name in found]
-    judge(against_the_plates(known, OVER[o.score]))
-    stances = tuple(judged_stance(*pair, SCORES[o.score]) for pair in known)
+        raise InputError(o.source, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
+    known = [(one, found[one.name]) for one in given if one.name in found]
+    score = given[0].asked.score
+    judge(against_the_plates(known, OVER[score]))
+    stances = tuple(judged_stance(*pair, SCORES[score]) for pair in known)
     result = ProsthesisCompareResult(
         options=o,
         stances=stances,
-        sides={one.trial.name: one.person.side for one in given},
+        sides={one.name: one.asked.side for one in given},
         odd=odd_stances(stances),
         bands=bands,
     )

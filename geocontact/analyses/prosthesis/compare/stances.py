@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, current, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.analyses.motion.markers import unit_of_c3d
+from geocontact.analyses.prosthesis.compare.earlier import AskedStance, simulated_before
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
@@ -42,12 +44,9 @@ from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gai
 
 
 @dataclass(frozen=True, eq=False)
-class StudiedStance:
-    """One stance of a study: as it is described, what a simulation of it is asked, and what its files hold."""
+class StudiedStance(AskedStance):
+    """One stance and what its files hold."""
 
-    trial: GaitStance
-    person: GaitPerson
-    asked: ProsthesisSimulateOptions
     recorded: RecordedWalk
     walk: Walk
     plate: PlateStance
@@ -66,14 +65,10 @@ class SimulatedStance:
 
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
     """Every stance; what is warned of several is one line."""
-    study = read_gait_study(o.study)
-    add_input("study", o.study, trials=len(study.trials), persons=len(study.persons))
     seen: dict[tuple[str, bool], list[str]] = {}
-    found = tuple(_stance(each, study.persons[each.person], o, seen) for each in study.trials)
-    files = {each.trial.markers.resolve(): each for each in found}
-    check_apart(
-        {each.trial.name: each.recorded.seen.positions for each in files.values()}, "one walk is counted as two"
-    )
+    found = tuple(_stance(each, o, seen) for each in (described(o) if o.study else simulated_before(o.runs)))
+    files = {each.asked.motion.resolve(): each for each in found}
+    check_apart({each.name: each.recorded.seen.positions for each in files.values()}, "one walk is counted as two")
     for (line, cause), names in seen.items():
         reserve(f"{_whose(names, len(found))}: {line}", cause=cause)
     return found
@@ -86,23 +81,32 @@ def _whose(names: Sequence[str], count: int) -> str:
     return f"all {count} stances" if len(names) == count else f"{len(names)} of {count} stances"
 
 
-def _stance(
-    trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions, seen: dict[tuple[str, bool], list[str]]
-) -> StudiedStance:
+def _stance(one: AskedStance, o: ProsthesisCompareOptions, seen: dict[tuple[str, bool], list[str]]) -> StudiedStance:
     """One stance; its warnings, and whether inputs contradict each other in them, go into `seen` with its name."""
-    asked = _asked(trial, person, o)
-    _require_setting(asked, trial, o)
+    asked = one.asked
+    _require_setting(one, o.source)
     with collecting(Record("prosthesis simulate", {})) as own:
         recorded = read_walk(asked)
         walk = walk_of(recorded, asked)
     for entry in own.inputs:
-        current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
+        current().inputs.append(entry | {"role": f"{one.name} {entry['role']}"})
     for line in own.warnings:
         said = line.replace("`", "")  # keys of the study, no options of this command
-        seen.setdefault((said, line in own.causes), []).append(trial.name)
+        seen.setdefault((said, line in own.causes), []).append(one.name)
     if walk.plate is None:  # every stance of a study names its plate
-        raise ValueError(f"{trial.name}: no plate")
-    return StudiedStance(trial, person, asked, recorded, walk, walk.plate)
+        raise ValueError(f"{one.name}: no plate")
+    return StudiedStance(one.name, one.person, one.setting, one.calibrated, asked, recorded, walk, walk.plate)
+
+
+def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
+    """Stances of a study's description."""
+    file = o.source
+    study = read_gait_study(file)
+    add_input("study", file, trials=len(study.trials), persons=len(study.persons))
+    return [
+        AskedStance(each.name, each.person, each.foot, each.calibrated, _asked(each, study.persons[each.person], o))
+        for each in study.trials
+    ]
 
 
 def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:
@@ -140,14 +144,14 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
     )
 
 
-def _require_setting(asked: ProsthesisSimulateOptions, trial: GaitStance, o: ProsthesisCompareOptions) -> None:
+def _require_setting(one: AskedStance, source: Path) -> None:
     """InputError with the trial's name for a setting or a fulcrum that its foot has not."""
     with collecting(Record("prosthesis simulate", {})):
-        foot = foot_of(asked.foot)
+        foot = foot_of(one.asked.foot)
     try:
-        fulcrum_at(foot, asked.setting, asked.fulcrum)
+        fulcrum_at(foot, one.asked.setting, one.asked.fulcrum)
     except InputError as error:
-        raise replace(error, file=o.study, place=f"[[trials]] {trial.name} {error.place.strip('`')}") from error
+        raise replace(error, file=source, place=f"[[trials]] {one.name} {error.place.strip('`')}") from error
 
 
 def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
@@ -166,8 +170,7 @@ def simulated_stance(one: StudiedStance) -> SimulatedStance | str:
 
 def judged_stance(one: StudiedStance, stance: Stance, scoring: Scoring = OVER_STANCE) -> JudgedStance:
     """A simulated stance beside its plate."""
-    trial = one.trial
-    return judged(trial.name, trial.person, trial.foot, stance, one.plate, calibrated=trial.calibrated, scoring=scoring)
+    return judged(one.name, one.person, one.setting, stance, one.plate, calibrated=one.calibrated, scoring=scoring)
 
 
 ALL = "all"

@@ -9,9 +9,11 @@ from typing import Annotated, ClassVar, Literal
 from geocontact.analyses.frame.marks import (
     BodyMass,
     C3dUnit,
+    Excludes,
     Expression,
     Fraction,
     Length,
+    Needs,
     PartLength,
     Requires,
     Spelled,
@@ -40,14 +42,14 @@ class ProsthesisSimulateOptions(Options):
     Parameters
     ----------
     markers
-        Walking trial (.trc, .c3d, .csv): markers of pelvis, thigh, socket and foot.
+        Walking trial (.trc, .c3d, .csv): markers of pelvis, thigh, socket and foot. With `coordinates` only compared.
 
     The person
     ----------
     static
         Standing trial with all markers, the foot flat on the floor.
     mass
-        Mass of the body with the prosthesis.
+        Mass of the body with the prosthesis; that of `model` where there is one.
     side
         Side of the prosthesis.
     sex
@@ -100,6 +102,11 @@ class ProsthesisSimulateOptions(Options):
 
     The motion
     ----------
+    coordinates
+        Motion of `model` (.mot, .sto, .csv) as `ik` writes it, in place of markers: its pelvis, thigh and socket.
+        Lengths in m, angles in the unit that the file states; x forward, y up, as the plates.
+    model
+        Model of both legs that `prosthesis scale` made of `static`; gives hip, knee and mass as well.
     cutoff
         Zero-lag low-pass of the recorded coordinates [Hz]; 0 leaves them as they are.
     socket_turns
@@ -144,7 +151,7 @@ class ProsthesisSimulateOptions(Options):
     OpenSim and `geocontact id`), paraview, a figure, report.html (moving foot with forces) and run.json into OUT.
     """
 
-    markers: Path
+    markers: Path | None = None
     _: KW_ONLY
     static: Path | None = None
     mass: Annotated[BodyMass | None, PERSON] = None
@@ -153,7 +160,7 @@ class ProsthesisSimulateOptions(Options):
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
     residual_markers: str | None = None
-    functional: Path | None = None
+    functional: Annotated[Path | None, Excludes("model", "the hip's centre is the model's")] = None
     foot: Path | None = None
     setting: str = "medium"
     fulcrum: Annotated[PartLength | None, FULCRUM] = None
@@ -166,6 +173,8 @@ class ProsthesisSimulateOptions(Options):
     other_plate: str | None = None
     plate: str | None = None
     score: Literal["stance", "study"] = "stance"
+    coordinates: Annotated[Path | None, Needs("model", "such as amputee_ik.osim of `prosthesis scale`")] = None
+    model: Annotated[Path | None, Requires("coordinates")] = None
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     socket_turns: int = TURNS
@@ -174,18 +183,26 @@ class ProsthesisSimulateOptions(Options):
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
-    walks: int | None = None
+    walks: Annotated[int | None, Excludes("coordinates", "the markers are those of a fit, without its errors")] = None
     marker_error: Annotated[Length | None, SHIFT, Requires("walks")] = None
     seed: Annotated[int | None, Requires("walks")] = None
     stand_still: bool = False
 
+    @property
+    def motion(self) -> Path:
+        """The file that the motion is of."""
+        return self.coordinates or self.markers or Path()
+
     def refuse_impossible(self) -> None:
-        """Nothing to scale with, or nothing that stands for the other leg."""
+        """No motion, nothing to scale with, or nothing that stands for the other leg."""
+        if self.markers is None and self.coordinates is None:
+            remedy = "give a walking trial, or `coordinates` with `model`"
+            raise InputError("", "`markers`", "neither markers nor `coordinates` are given", remedy)
         require_one_residual(self.residual, self.residual_length, self.residual_markers)
         if self.static is None:
             what = "no standing trial: the leg's lengths and the markers' places are not known"
-            raise InputError(self.markers, "`static`", what, "give a trial of quiet standing with all markers")
-        if self.mass is None:
+            raise InputError(self.motion, "`static`", what, "give a trial of quiet standing with all markers")
+        if self.mass is None and self.model is None:
             raise InputError("", "`mass`", "the mass of the person is not known", "give for example 77.3")
         if self.plates is None or self.other_plate is None:
             what = "the force under the other foot is not known: the pelvis, free to fall, would"

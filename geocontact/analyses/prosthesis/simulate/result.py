@@ -234,7 +234,7 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     found = limb.stance
     if not found.on.any():
         raise InputError(
-            o.markers, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
+            o.motion, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
         )
     errors = None if walk.plate is None else stance_errors(found, walk.plate, SCORES[o.score])
     for line in doubts(found):
@@ -296,7 +296,7 @@ def _still(walk: Walk, o: ProsthesisSimulateOptions) -> StandingStill | None:
     try:
         still = standing_still(walk.leg, walk.foot, walk.fulcrum, bushing=bushing_of(o), machine_code=o.machine_code)
     except ArithmeticError as error:
-        raise InputError(o.markers, "`stand_still`", str(error), "check `mass` and `law`, or leave it out") from error
+        raise InputError(o.motion, "`stand_still`", str(error), "check `mass` and `law`, or leave it out") from error
     lasting = still.stance.time[-1]
     note("stand_still", plain({"seconds": lasting, "missing_BW": still.missing, "slid_mm": 1e3 * still.slid}))
     say(

@@ -99,7 +99,7 @@ def stance_page(
         ),
     ]
     return Page(
-        title=f"Prosthetic stance along {o.markers.name}",
+        title=f"Prosthetic stance along {o.motion.name}",
         subtitle=f"Fulcrum at {1e3 * s.fulcrum:.0f} mm, {s.motion.leg.person.mass:g} kg, {o.side} side; x forward",
         time=s.time[shown],
         time_label="time [s]",

@@ -16,9 +16,11 @@ from geocontact.analyses.motion.marker_tasks import MOVING
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at, read_schedule
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.scores import ROOM, SCORES
+from geocontact.analyses.prosthesis.simulate.coordinates import compared_markers, mass_of, moved_model
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.from_markers import of_side
+from geocontact.below_knee_prosthesis.from_model import ModelLeg
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
@@ -42,7 +44,12 @@ class RecordedWalk:
     Parameters
     ----------
     standing, moving, seen
-        Markers while standing, of the functional trial (None without one), and while walking.
+        Markers while standing, of the functional trial (None without one), and while walking: recorded, or those of a
+        model along its coordinates.
+    mass
+        Of the person [kg].
+    joints
+        Hip and knee of that model; None without one.
     other, plate
         Plates under the other foot, and under the prosthetic one; None where it is not named.
     ground
@@ -58,6 +65,8 @@ class RecordedWalk:
     standing: MarkerTrajectories
     moving: MarkerTrajectories | None
     seen: MarkerTrajectories
+    mass: float
+    joints: ModelLeg | None
     other: PlateStance
     plate: PlateStance | None
     ground: HalfSpace | Stairs
@@ -79,24 +88,28 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
         bushing_of(o)
         add_input("`socket_numbers`", o.socket_numbers)
     standing = lab.markers("`static`", cast(Path, o.static))
-    moving = None
-    if o.functional is None:
+    model = None if o.coordinates is None else moved_model(o)
+    mass, moving = mass_of(o, model), None
+    if model is None and o.functional is None:
         reserve("the hip's centre comes from a regression; a `functional` trial determines it better")
-    else:
+    elif o.functional is not None:
         moving = lab.right(lab.markers("`functional`", o.functional))
     offset = offset_of_law(o.law, cast(Path, o.static))
-    seen = lab.markers("markers", o.markers, o.time)
+    seen = lab.markers("markers", cast(Path, o.markers), o.time) if model is None else model.seen
+    checked = seen if model is None else compared_markers(o, lab, model, standing)
     file = cast(Path, o.plates)
     plates = lab.plates(file)
     add_input("`plates`", file, plates=len(plates))
     other = plate_named(plates, o.other_plate, file, "`other_plate`")
     own = None if o.plate is None else plate_named(plates, o.plate, file, "`plate`")
-    lab.check(standing, seen, cast(float, o.mass), file, own, other, 0.0 if o.ground is None else None)
+    lab.check(standing, checked, mass, file, own, other, 0.0 if o.ground is None else None)
     plate = None if own is None else lab.stance(own, file)
     return RecordedWalk(
         standing=lab.right(standing),
         moving=moving,
         seen=lab.right(seen),
+        mass=mass,
+        joints=None if model is None else model.leg(lab.right(standing), o),
         other=lab.stance(other, file),
         plate=plate,
         ground=ground,
@@ -124,12 +137,13 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     walk = fitted_walk(
         recorded.standing,
         recorded.seen,
-        Person(cast(float, o.mass), o.sex, o.residual),
+        Person(recorded.mass, o.sex, o.residual),
         recorded.foot,
         recorded.fulcrum,
         recorded.other,
         plate=recorded.plate,
         moving=recorded.moving,
+        joints=recorded.joints,
         ground=recorded.ground,
         offset=recorded.offset,
         cutoff=None if o.cutoff == 0.0 else o.cutoff,
@@ -175,7 +189,7 @@ def band_of(
     try:
         return marker_band(found, again, o.walks, seed=o.seed or 0, step=step)
     except ArithmeticError as error:
-        raise InputError(o.markers, "`walks`", str(error), "give a smaller `marker_error`") from error
+        raise InputError(o.motion, "`walks`", str(error), "give a smaller `marker_error`") from error
 
 
 def bushing_of(o: ProsthesisSimulateOptions) -> Bushing:
@@ -199,4 +213,4 @@ def simulated(walk: Walk, o: ProsthesisSimulateOptions) -> LimbInSocket:
         return simulated_walk(walk, turns=o.socket_turns, bushing=bushing_of(o), machine_code=o.machine_code)
     except (ArithmeticError, ValueError) as error:
         remedy = "check `mass`, `side`, `axes` and the names of the markers; as_printed no gait can be walked"
-        raise InputError(o.markers, "", str(error), remedy) from error
+        raise InputError(o.motion, "", str(error), remedy) from error
