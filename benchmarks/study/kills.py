@@ -1,7 +1,7 @@
 """Kills of a study at random moments; the tables that come out in the end are those of a run that nobody disturbed.
 
 `python -m benchmarks.study.kills --kills 50` writes results/cohort_kills.json after every run, with `--chain`
-results/cohort_kills_chain.json, and ends after `--minutes` at the latest. A study of 12 evaluations is started again
+results/cohort_kills_chain_SEED.json, and ends after `--minutes` at the latest. A study of 12 evaluations is started again
 and again on the same folder, and killed: its own process (SIGKILL or SIGTERM) or one of its workers (SIGKILL). When a
 run comes to its end the tables are compared, and the next one starts from nothing. The 12 are short trials of one step
 that waits, or in the chain four subjects of three steps (`leg_chain`): there every second kill comes at a random moment
@@ -196,7 +196,7 @@ def main() -> None:
         started = time.perf_counter()
 
         def tell(found: Killed) -> None:
-            name = "cohort_kills_chain" if asked.chain else "cohort_kills"
+            name = f"cohort_kills_chain_{asked.seed}" if asked.chain else "cohort_kills"
             write_results(name, vars(asked), figures(found, started), PACKAGES)
 
         file = made(folder, TRIALS // len(STEPS)) if asked.chain else prepare(folder)
