@@ -273,10 +273,10 @@ def main() -> None:
     parser.add_argument("--dry", action="store_true", help="write no results")
     asked = parser.parse_args()
     file = Path(__file__).resolve().parents[1] / "results" / "chain_faults.json"
-    known: Outcomes = json.loads(file.read_text(encoding="utf-8"))["figures"] if file.is_file() else {}
 
     def tell(found: Outcomes) -> None:
         if not asked.dry:
+            known: Outcomes = json.loads(file.read_text(encoding="utf-8"))["figures"] if file.is_file() else {}
             merged = {**known, **found}
             together = {each: merged[each] for each in FAULTS if each in merged}
             write_results("chain_faults", {"anew": asked.only}, together, {"dask", "distributed", "pyarrow"})
