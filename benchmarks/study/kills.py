@@ -5,7 +5,7 @@ results/cohort_kills_chain_SEED.json, and ends after `--minutes` at the latest. 
 again and again on the same folder, and killed: its own process (SIGKILL or SIGTERM) or one of its workers (SIGKILL).
 When a run comes to its end the tables are compared, and the next one starts from nothing. The 12 are short trials of
 one step that waits, or in the chain four subjects of three steps (`leg_chain`): there every second kill comes at a
-random moment of the run, the others after a random count of results, so that steps are cut off from those that they take from.
+random moment of the run, the others after a random count of results, so that steps are cut off from earlier ones.
 """
 
 from __future__ import annotations
