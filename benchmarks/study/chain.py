@@ -10,6 +10,7 @@ machine does, `load` is the mean count of processes that wanted a core before an
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import shutil
 import tempfile
@@ -20,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.machine import write_results
-from benchmarks.study.leg_chain import MODEL, STEPS, Measured, factor, made, measured, name, swing, work_of
+from benchmarks.study.leg_chain import MODEL, ROOT, STEPS, Measured, factor, made, measured, name, swing, work_of
 
 PACKAGES = {"dask", "distributed", "pyarrow"}
 CHANGED = 7
@@ -89,28 +90,30 @@ def overhead(run: Measured, each: Mapping[str, Mapping[str, float]], workers: in
     }
 
 
-def compared(folder: Path, subjects: int, workers: int, tell: Callable[[Mapping[str, Any]], None]) -> None:
-    """All runs, `tell` is called after each; the new evaluations are those that depend on what changed."""
-    file, out = made(folder, subjects), folder / "out"
-    found: dict[str, Any] = {"alone": alone(folder, min(20, subjects))}
-    first = measured(file, out, workers)
-    work, spent = work_of(out)
-    found["from_nothing"] = figures_of(first) | {"work_seconds": work, "seconds_of_evaluations": spent}
-    found["overhead"] = overhead(first, found["alone"], workers)
-    tell(found)
-    found["again"] = figures_of(measured(file, out, workers))
-    tell(found)
-    swing(folder / f"{name(CHANGED % subjects)}.mot", factor(subjects + 1))
-    found["one_file_changed"] = figures_of(measured(file, out, workers))
-    expect(found, subjects)
-    tell(found)
+def stages(folder: Path, subjects: int, workers: int) -> dict[str, Callable[[], dict[str, Any]]]:
+    """What is measured on the study in a folder, by name, in this order; each gives figures for the file."""
+    file, out = folder / "study.toml", folder / "out"
+
+    def from_nothing() -> dict[str, Any]:
+        each, run = alone(made(folder, subjects).parent, min(20, subjects)), measured(file, out, workers)
+        work, spent = work_of(out)
+        told = figures_of(run) | {"work_seconds": work, "seconds_of_evaluations": spent}
+        return {"alone": each, "from_nothing": told, "overhead": overhead(run, each, workers)}
+
+    def again() -> dict[str, Any]:
+        return {"again": figures_of(measured(file, out, workers))}
+
+    def one_file_changed() -> dict[str, Any]:
+        swing(folder / f"{name(CHANGED % subjects)}.mot", factor(subjects + 1))
+        return {"one_file_changed": figures_of(measured(file, out, workers))}
+
+    return {"from_nothing": from_nothing, "again": again, "one_file_changed": one_file_changed}
 
 
 def expect(found: Mapping[str, Any], subjects: int) -> None:
     """AssertionError where a run evaluated other than what its change reaches."""
-    assert found["from_nothing"]["new"] == dict.fromkeys(STEPS, subjects), found["from_nothing"]
-    assert found["again"]["new"] == dict.fromkeys(STEPS, 0), found["again"]
-    assert found["one_file_changed"]["new"] == dict.fromkeys(STEPS, 1), found["one_file_changed"]
+    for stage, count in (("from_nothing", subjects), ("again", 0), ("one_file_changed", 1)):
+        assert stage not in found or found[stage]["new"] == dict.fromkeys(STEPS, count), (stage, found[stage])
 
 
 def main() -> None:
@@ -118,18 +121,28 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--subjects", type=int, default=500)
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--folder", type=Path, help="the study is kept there, and other stages find it")
+    parser.add_argument("--only", nargs="*", default=["from_nothing", "again", "one_file_changed"], metavar="STAGE")
     parser.add_argument("--dry", action="store_true", help="write no results")
     asked = parser.parse_args()
-    load = os.getloadavg()[0]
-
-    def tell(found: Mapping[str, Any]) -> None:
-        told = {**found, "load": [round(load, 1), round(os.getloadavg()[0], 1)]}
-        print(told, flush=True)
-        if not asked.dry:
-            write_results("cohort_chain", vars(asked), told, PACKAGES)
-
     with tempfile.TemporaryDirectory() as scratch:
-        compared(Path(scratch), asked.subjects, asked.workers, tell)
+        folder = asked.folder or Path(scratch)
+        for stage, measure in stages(folder, asked.subjects, asked.workers).items():
+            if stage in asked.only:
+                load = os.getloadavg()[0]
+                figures = measure()
+                figures[stage]["load"] = [round(each, 1) for each in (load, os.getloadavg()[0])]
+                expect(figures, asked.subjects)
+                print(figures, flush=True)
+                if not asked.dry:
+                    keep(figures, asked.subjects, asked.workers)
+
+
+def keep(figures: Mapping[str, Any], subjects: int, workers: int) -> None:
+    """Write figures into the file of results, in place of those of the same stages."""
+    file = ROOT / "benchmarks" / "results" / "cohort_chain.json"
+    known = json.loads(file.read_text(encoding="utf-8"))["figures"] if file.is_file() else {}
+    write_results("cohort_chain", {"subjects": subjects, "workers": workers}, {**known, **figures}, PACKAGES)
 
 
 if __name__ == "__main__":
