@@ -3,7 +3,7 @@
 `python -m benchmarks.robustness.chain_faults` writes results/chain_faults.json; with `--only` those that are run
 replace theirs. The study is `benchmarks.study.leg_chain`. Faults of the machine meet a study that has no results yet;
 then the fault is taken away and the same command is run again. Faults of what is kept meet a finished study: a file is
-damaged, and the same command is run. In the end all tables are equal, byte for byte, to those of an undisturbed run,
+damaged, and the same command is run, in one process on a worker that stays. In the end all tables are equal, byte for byte, to those of an undisturbed run,
 and no more was evaluated than the fault reaches.
 """
 
@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from benchmarks.machine import write_results
-from benchmarks.study.leg_chain import STEPS, Measured, made, measured, name, tables
+from benchmarks.study.leg_chain import STEPS, Measured, made, measured, name, tables, typed_here
 from geocontact.study.store import RESULTS, TOLD, WORK, Store
 
 SUBJECTS = 2
@@ -36,6 +36,8 @@ time.time = lambda: _time() - (3600.0 if time.monotonic() - _start > 3.0 else 0.
 """
 """A module that sets the clock of each process back by an hour, 3 s after it began."""
 Outcomes = dict[str, dict[str, object]]
+Typed = Callable[[Path, Path], Measured]
+"""Runs the study of a file into a folder."""
 
 
 @dataclass(frozen=True)
@@ -209,17 +211,33 @@ FAULTS: dict[str, Fault] = {
 """By what is wrong."""
 
 
-def outcome(fault: Fault, finished: Path, scratch: Path) -> dict[str, object]:
+def of_its_own(file: Path, out: Path) -> Measured:
+    """A process of the command with one of a worker."""
+    return measured(file, out, 1)
+
+
+@contextlib.contextmanager
+def on_one_worker() -> Iterator[Typed]:
+    """The command in this process, on a worker that stays."""
+    import distributed
+
+    with distributed.LocalCluster(  # type: ignore[no-untyped-call]
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", silence_logs="CRITICAL"
+    ) as cluster:
+        yield lambda file, out: typed_here(file, out, cluster.scheduler_address)
+
+
+def outcome(fault: Fault, finished: Path, scratch: Path, typed: Typed) -> dict[str, object]:
     """How the runs ended, and whether that is right; `finished` is the folder of an undisturbed study."""
     began, home, runs = time.perf_counter(), scratch / "study", list[Measured]()
     shutil.copytree(finished, home, ignore=shutil.ignore_patterns("out") if fault.machine else None)
     file, out = home / "study.toml", home / "out"
     if fault.machine is not None:
         with fault.machine(out):
-            runs.append(measured(file, out, 1))
+            runs.append(of_its_own(file, out))
     if fault.damage is not None:
         fault.damage(out, home)
-    runs.append(measured(file, out, 1))
+    runs.append(typed(file, out))
     last, said = runs[-1], " | ".join(words(runs[0].err)).replace(str(scratch), "…")
     right = {
         "same tables": tables(out) == tables(finished / "out"),
@@ -244,20 +262,26 @@ def words(err: str) -> list[str]:
     return [line for line in err.splitlines() if not line.startswith(("warning: ", "trials: "))]
 
 
-def run(names: list[str], tell: Callable[[Outcomes], None] = lambda _: None) -> Outcomes:
+def finished_study(folder: Path, typed: Typed) -> Path:
+    """The folder of a study that nobody disturbed."""
+    first = typed(made(folder, SUBJECTS), folder / "out")
+    if first.code or first.new != only(**dict.fromkeys(STEPS, SUBJECTS)):
+        raise RuntimeError(f"the study fails without a fault: {first}")
+    return folder
+
+
+def run(names: list[str], typed: Typed, tell: Callable[[Outcomes], None] = lambda _: None) -> Outcomes:
     """Outcomes of these faults."""
     found: Outcomes = {}
     with tempfile.TemporaryDirectory() as folder:
         finished = Path(folder, "finished")
         finished.mkdir()
-        first = measured(made(finished, SUBJECTS), finished / "out", 1)
-        if first.code or first.new != only(**dict.fromkeys(STEPS, SUBJECTS)):
-            raise RuntimeError(f"the study fails without a fault: {first}")
+        finished_study(finished, typed)
         for each in names:
             scratch = Path(folder, "fault")
             scratch.mkdir()
             try:
-                found[each] = outcome(FAULTS[each], finished, scratch)
+                found[each] = outcome(FAULTS[each], finished, scratch, typed)
             except PermissionError as error:
                 found[each] = {"right": None, "said": str(error)}
             shutil.rmtree(scratch)
@@ -281,7 +305,8 @@ def main() -> None:
             together = {each: merged[each] for each in FAULTS if each in merged}
             write_results("chain_faults", {"anew": asked.only}, together, {"dask", "distributed", "pyarrow"})
 
-    run(asked.only, tell)
+    with on_one_worker() as typed:
+        run(asked.only, typed, tell)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -106,8 +108,24 @@ def measured(file: Path, out: Path, workers: int = 2, more: Sequence[str] = ()) 
     done = subprocess.run(command(file, out, workers, more), cwd=ROOT, check=False, capture_output=True, text=True)
     after, whole = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter() - started
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    told = re.findall(r"\d+ of \d+ trials? of (\w+) have results, (\d+) of them new", done.stdout)
-    return Measured(whole, cpu, {step: int(count) for step, count in told}, done.returncode, done.stderr)
+    return Measured(whole, cpu, new_of(done.stdout), done.returncode, done.stderr)
+
+
+def new_of(told: str) -> dict[str, int]:
+    """How many evaluations of each step were new, as a run says."""
+    found = re.findall(r"\d+ of \d+ trials? of (\w+) have results, (\d+) of them new", told)
+    return {step: int(count) for step, count in found}
+
+
+def typed_here(file: Path, out: Path, scheduler: str) -> Measured:
+    """The same command in this process, on workers that are there."""
+    from geocontact.cli.main import run
+
+    said, err, started = StringIO(), StringIO(), (time.perf_counter(), time.process_time())
+    with redirect_stdout(said), redirect_stderr(err):
+        code = run(["cohort", str(file), "--out", str(out), "--scheduler", scheduler])
+    spent = time.perf_counter() - started[0], time.process_time() - started[1]
+    return Measured(*spent, new_of(said.getvalue()), code, err.getvalue())
 
 
 def work_of(out: Path) -> tuple[float, float]:
