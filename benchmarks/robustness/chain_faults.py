@@ -3,8 +3,8 @@
 `python -m benchmarks.robustness.chain_faults` writes results/chain_faults.json; with `--only` those that are run
 replace theirs. The study is `benchmarks.study.leg_chain`. Faults of the machine meet a study that has no results yet;
 then the fault is taken away and the same command is run again. Faults of what is kept meet a finished study: a file is
-damaged, and the same command is run, in one process on a worker that stays. In the end all tables are equal, byte for byte, to those of an undisturbed run,
-and no more was evaluated than the fault reaches.
+damaged, and the same command is run, in one process on a worker that stays. In the end all tables are equal, byte for
+byte, to those of an undisturbed run, and no more was evaluated than the fault reaches.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.machine import write_results
@@ -49,15 +49,15 @@ class Fault:
     new
         How many evaluations of each step the last run makes; None where the first run may have made some.
     damage
-        Of a finished study, whose folder of results and whose own folder are given; the new folder of results.
+        Of a finished study, whose folder of results and whose own folder are given.
     machine
         Of the machine, while the first run lasts, on a folder without results.
     code
         Exit code of the first run under a fault of the machine.
     said
-        What its only line holds.
-    environment
-        Over that of this process.
+        What its lines hold.
+    lines
+        How many these are.
     """
 
     new: Mapping[str, int] | None = None
@@ -65,7 +65,7 @@ class Fault:
     machine: Callable[[Path], contextlib.AbstractContextManager[object]] | None = None
     code: int = 0
     said: str = ""
-    environment: Mapping[str, str] = field(default_factory=dict)
+    lines: int = 1
 
 
 def only(**new: int) -> dict[str, int]:
@@ -191,7 +191,7 @@ def tables_damaged(out: Path, _: Path) -> None:
 
 FAULTS: dict[str, Fault] = {
     "the disk is full": Fault(machine=full_disk, code=1, said="No space left on device"),
-    "files are limited": Fault(machine=limited_files, code=1, said="File too large"),
+    "files are limited": Fault(machine=limited_files, code=2, said="File too large", lines=SUBJECTS + 1),
     "the folder is read-only": Fault(machine=read_only, code=2, said="cannot be written to"),
     "the clock is set back": Fault(only(), machine=clock_set_back),
     "a bit of an earlier step's file differs": Fault(only(ik=1), lambda o, _: flipped(kept(o, "ik") / "ik.mot")),
@@ -244,7 +244,7 @@ def outcome(fault: Fault, finished: Path, scratch: Path, typed: Typed) -> dict[s
         "last code": last.code == 0,
         "evaluated": last.new == fault.new if fault.new is not None else 0 < last.all_new <= SUBJECTS * len(STEPS),
         "first code": len(runs) == 1 or runs[0].code == fault.code,
-        "one line": fault.said in said and len(words(runs[0].err)) == (1 if fault.code else 0),
+        "lines": fault.said in said and len(words(runs[0].err)) == (fault.lines if fault.code else 0),
     }
     wrong = [each for each, is_right in right.items() if not is_right]
     return {
