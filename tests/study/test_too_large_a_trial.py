@@ -14,7 +14,7 @@ from tests.cli.calls import FACET, ROOT, call
 
 MESHES = ROOT / "meshes"
 RADIUS = 20.0  # mm
-STUDY = f"""files = "{{subject}}.stl"
+STUDY = f"""files = "balls/{{subject}}.stl"
 analysis = "modulus"
 pages = false
 figures = false
@@ -55,12 +55,12 @@ def large_ball(file: Path, around: int, down: int) -> None:
 
 def study(folder: Path) -> Path:
     """Three balls pressed into a layer, that of B with four million facets."""
+    (folder / "balls").mkdir()
     for name in "AC":
-        shutil.copy(MESHES / "sphere_r20.stl", folder / f"{name}.stl")
-    large_ball(folder / "B.stl", 2001, 1001)
+        shutil.copy(MESHES / "sphere_r20.stl", folder / "balls" / f"{name}.stl")
+    large_ball(folder / "balls" / "B.stl", 2001, 1001)
     shutil.copy(MESHES / "plate_80x80x12.stl", folder / "plate.stl")
-    head, *rows = (MESHES / "ball_press.csv").read_text(encoding="utf-8").splitlines()
-    (folder / "press.csv").write_text("\n".join([head, *rows[2::3]]) + "\n", encoding="utf-8")
+    shutil.copy(MESHES / "ball_press.csv", folder / "press.csv")
     file = folder / "study.toml"
     file.write_text(STUDY, encoding="utf-8")
     return file
