@@ -143,8 +143,9 @@ class Store:
     def holds(self, address: str, home: Path, digests: Digests, taken: Sequence[str] = ()) -> bool:
         """Whether results are there as they were written, and all files that they were made of are as they were.
 
-        Of pages and pictures, which nothing is made of, only that they are there. `taken` are the folders of earlier results that they would be made of now, in the order of `address_of`: their
-        files stand for those of the folders that these results were made of.
+        Of pages and pictures, which nothing is made of, only that they are there. `taken` are the folders of earlier
+        results that they would be made of now, in the order of `address_of`: their files stand for those of the folders
+        that these results were made of.
         """
         place = self.place(address)
         if not (place / TOLD).is_file():
