@@ -38,6 +38,8 @@ GONE = 15.0  # s; in which workers of a killed study are to end
 GIVEN = 2.0  # s of a core that one may take first where other work keeps the cores: until it can end it takes 0.6
 MOST = 180.0  # s; then it counts as left, however little it was given
 PACKAGES = {"dask", "distributed", "pyarrow"}
+OF_KILLS = (143, -15, -9)
+"""Exit codes of a killed study: ended by its own handler of SIGTERM, or before it had one."""
 WAYS = ("study, SIGKILL", "study, SIGTERM", "worker, SIGKILL")
 
 
@@ -45,7 +47,7 @@ WAYS = ("study, SIGKILL", "study, SIGTERM", "worker, SIGKILL")
 class Killed:
     """What came of it: kills by way, runs that came to their end, how many of them had other tables.
 
-    `kept` is how many evaluations had results at each kill.
+    `kept` is how many evaluations had results at each kill, `odd` what runs said that ended by themselves with an error.
     """
 
     kills: Counter[str] = field(default_factory=Counter)
@@ -53,6 +55,7 @@ class Killed:
     different: int = 0
     left_running: int = 0
     kept: list[int] = field(default_factory=list)
+    odd: list[str] = field(default_factory=list)
     codes: Counter[int] = field(default_factory=Counter)
 
 
@@ -66,7 +69,14 @@ def command(file: Path, out: Path) -> list[str]:
 
 
 def start(file: Path, out: Path) -> subprocess.Popen[bytes]:
-    return subprocess.Popen(command(file, out), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    """A run, whose lines on stderr go beside the description."""
+    with said(file).open("wb") as err:
+        return subprocess.Popen(command(file, out), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=err)
+
+
+def said(file: Path) -> Path:
+    """What the last run said on stderr."""
+    return file.with_suffix(".err")
 
 
 def reference(file: Path, out: Path) -> tuple[dict[str, bytes], float]:
@@ -109,6 +119,8 @@ def disturb(
             shutil.rmtree(out)
         else:
             found.codes[code] += 1
+            if code not in OF_KILLS:
+                found.odd.append(said(file).read_text(encoding="utf-8", errors="replace")[-1000:])
     process = start(file, out)  # the last one is left to its end
     found.codes[process.wait()] += 0
     found.ended += 1
@@ -212,6 +224,7 @@ def figures(found: Killed, started: float) -> dict[str, object]:
         "with_other_tables": found.different,
         "processes_left_running": found.left_running,
         "exit_codes_of_killed": {str(code): count for code, count in found.codes.items()},
+        "ended_with_an_error": found.odd,
         "trials": TRIALS,
         "kills_with_some_results": sum(0 < count < TRIALS for count in found.kept),
         "results_at_kills": sorted(found.kept),
