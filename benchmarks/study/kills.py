@@ -47,7 +47,7 @@ WAYS = ("study, SIGKILL", "study, SIGTERM", "worker, SIGKILL")
 class Killed:
     """What came of it: kills by way, runs that came to their end, how many of them had other tables.
 
-    `kept` is how many evaluations had results at each kill, `odd` what runs said that ended by themselves with an error.
+    `kept` is how many evaluations had results at each kill, `odd` what runs said that ended with an error of their own.
     """
 
     kills: Counter[str] = field(default_factory=Counter)
