@@ -86,15 +86,16 @@ def test_a_study_sets_the_trial_aside_that_takes_twice_its_memory(tmp_path: Path
     for step, expected in states.items():
         assert [table.loc[(step, name), "state"] for name in "ABC"] == expected
     assert table.loc[("press", "B"), "words"] in line[0] and table.loc[("modulus", "B"), "words"] == "needs press of B"
-    assert set(pd.read_parquet(out / "tables" / "modulus" / "curve.parquet")["name"]) == {"A", "C"}
+    assert set(pd.read_parquet(out / "tables" / "modulus" / "modulus.parquet")["name"]) == {"A", "C"}
     agrees(pd.read_parquet(out / "tables" / "press" / "area.parquet"), tmp_path / "press.csv")
 
 
 def agrees(area: pd.DataFrame, motion: Path) -> None:
-    """Areas of both are those of a cap that is d deep: a disc of radius √(2 R d − d²) on the layer."""
+    """Areas of a ball whose facets lie inside: below π(2 R d − d²), deeper than 0.7 mm by up to 4.5 %."""
     depth = RADIUS - pd.read_csv(motion, skipinitialspace=True)["ty [mm]"].to_numpy()
     disc = np.pi * (2.0 * RADIUS * depth - depth**2)
     for name in "AC":
         found = area[area["name"] == name]["area_fixed [mm^2]"].to_numpy()
-        np.testing.assert_allclose(found, disc, rtol=0.05)
+        assert (found < disc).all()
+        np.testing.assert_allclose(found[depth > 0.7], disc[depth > 0.7], rtol=0.045)
     assert set(area["name"]) == {"A", "C"}
