@@ -30,6 +30,8 @@ TOLD = "trial.json"
 """File in the folder of a trial that says what is in it."""
 WORK = ".work"
 """Sub-folder of what is being written."""
+SHOWN = (".html", ".png", ".svg", ".pdf")
+"""Endings of files that are only looked at."""
 ANEW = "remove that folder: the trial is evaluated anew"
 UNREADABLE = (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError)
 """Errors where a file of results, which may come from others, does not say what it should."""
@@ -139,10 +141,11 @@ class Store:
         return found
 
     def holds(self, address: str, home: Path, digests: Digests, taken: Sequence[str] = ()) -> bool:
-        """Whether results are there, and all files that they were made of are as they were.
+        """Whether results are there as they were written, and all files that they were made of are as they were.
 
-        `taken` are the folders of earlier results that they would be made of now, in the order of `address_of`: their
-        files stand for those of the folders that these results were made of.
+        Of pages and pictures, which nothing is made of, only that they are there. `taken` are the folders of earlier
+        results that they would be made of now, in the order of `address_of`: their files stand for those of the folders
+        that these results were made of.
         """
         place = self.place(address)
         if not (place / TOLD).is_file():
@@ -150,14 +153,20 @@ class Store:
         try:
             before = read_json(place / TOLD).get("from", [])
             now = dict(zip(before, taken, strict=True))
-            inputs = read_json(place / RUN)["inputs"]
+            run = read_json(place / RUN)
             named = {
                 home / _moved(str(each["file"]), now): each["sha256"]
-                for each in inputs
+                for each in run["inputs"]
                 if "sha256" in each and "file" in each
             }
             # a pipe or a device, of which a stranger's results may say that they were made, would be waited for
-            return all(file.is_file() and digests.of(file) == known for file, known in named.items())
+            same = all(file.is_file() and digests.of(file) == known for file, known in named.items())
+            return same and all(
+                is_inside(place, name)
+                and (place / name).is_file()
+                and (name.endswith(SHOWN) or digests.of(place / name) == known)
+                for name, known in run.get("sha256", {}).items()
+            )
         except UNREADABLE:
             return False
 

@@ -31,6 +31,9 @@ SETTINGS: dict[str, Any] = {
     "distributed.scheduler.allowed-failures": 10,  # a trial counts its workers itself, and only those that were at it
     "distributed.worker.multiprocessing-method": "spawn",  # no server between: `worker_setup` asks for its parent
     "distributed.admin.system-monitor.gil.enabled": False,
+    # nobody reads them, and a process that waits took 1.6 % of a core for them: 0.6 to 0.9 % is left
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
     # pages about the work are shown to nobody: they do not ask who asks
     **{f"distributed.{each}.http.routes": [] for each in ("scheduler", "worker", "nanny")},
 }

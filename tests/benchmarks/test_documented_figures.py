@@ -748,14 +748,14 @@ def test_the_plan_of_a_large_study() -> None:
     for label, (value, scale) in measured.items():
         one, every = (cell.partition(" ")[0] for cell in row(page, label))
         assert near(one, value) and near(every, value, scale * trials), label
-    simulated = [cells for cells in rows(page) if len(cells) == 10 and cells[0] in ("area", "gap diagnose")]
-    assert len(simulated) == 6 and trials == 100_000
-    for analysis, scenario, workers, hours, used, lost, *counts in simulated:
-        own = figures[f"{analysis}, {scenario}, {workers}"]
+    simulated = [cells for cells in rows(page) if len(cells) == 7 and cells[0] in ("area", "gap diagnose")]
+    assert [cells[1] for cells in simulated] == ["usual", "rough"] * 2 and trials == 100_000
+    for analysis, scenario, hours, used, lost, *counts in simulated:
+        own = figures[f"{analysis}, {scenario}, 64"]
         for cell, key in ((hours, "hours"), (lost, "lost_cpu_hours")):
             assert all(map(near, cell.replace("(", "").replace(")", "").replace("… ", "").split(), own[key])), cell
         assert near(used, own["share"][0], 100.0)
-        keys = ("failed", "set_aside", "set_aside_innocent", "started_again")
+        keys = ("set_aside", "set_aside_innocent")
         assert all(near(cell, own[key][0]) for cell, key in zip(counts, keys, strict=True)), counts
     assert max(figures[key]["set_aside_innocent"][0] for key in figures if ", " in key) < 1.0
 

@@ -19,6 +19,7 @@ import pytest
 from scipy.io import netcdf_file
 
 import geocontact as gc
+from geocontact.study import workers
 from geocontact.study.curves import StudyCurves
 from geocontact.study.result import CohortResult
 from geocontact.study.show import study_curves, study_page
@@ -338,3 +339,12 @@ def test_curves_are_over_the_gait_cycles_of_a_table_of_events(tmp_path: Path, sc
     assert np.isfinite(row["peak_difference_lower"]) and row["rmse"] > 1.0
     shorter = part.set_index(["condition", "cycle [%]"])["mean"]["slow", 100.0]
     assert shorter == pytest.approx(number * 0.5 * (np.sin(0.3) + np.sin(0.8)), rel=5e-3)
+
+
+def test_settings_of_the_workers_are_ones_that_dask_has() -> None:
+    """A name that it does not know would do nothing; nannies of this version show no pages."""
+    import dask
+    import distributed  # noqa: F401  its defaults come with it
+
+    unknown = {each for each in workers.SETTINGS if dask.config.get(each, "unknown") == "unknown"}
+    assert unknown <= {"distributed.nanny.http.routes"}

@@ -96,3 +96,30 @@ def test_inputs_that_would_be_waited_for_are_not_opened(tmp_path: Path) -> None:
 @pytest.mark.parametrize("inputs", [5, [5], [{"file": 5, "sha256": 5}], None, [[]] * 3 + [None]])
 def test_other_inputs_are_no_results(tmp_path: Path, inputs: object) -> None:
     assert not whole(tmp_path, inputs).holds("a", tmp_path, Digests())
+
+
+@pytest.mark.parametrize(
+    ("name", "kept"),
+    [("angles.mot", False), ("below/angles.mot", False), ("report.html", True)],
+)
+def test_results_are_used_while_they_are_as_they_were_written(tmp_path: Path, name: str, kept: bool) -> None:
+    """A byte that differs makes them new, one of a page does not; a file that is missing always does."""
+    store = whole(tmp_path, [])
+    file = tmp_path / "a" / name
+    file.parent.mkdir(exist_ok=True)
+    file.write_bytes(b"1.25")
+    listed = {"inputs": [], "sha256": {name: sha256(b"1.25").hexdigest()}}
+    (tmp_path / "a" / RUN).write_text(json.dumps(listed))
+    assert store.holds("a", tmp_path, Digests())
+    file.write_bytes(b"1.35")
+    assert store.holds("a", tmp_path, Digests()) == kept
+    file.unlink()
+    assert not store.holds("a", tmp_path, Digests())
+
+
+@pytest.mark.parametrize("listed", [{"../x.csv": sha256(b"1").hexdigest()}, {"/x.csv": ""}, [], 5, {"": ""}])
+def test_results_that_list_files_elsewhere_are_none(tmp_path: Path, listed: object) -> None:
+    (tmp_path / "x.csv").write_bytes(b"1")
+    store = whole(tmp_path, [])
+    (tmp_path / "a" / RUN).write_text(json.dumps({"inputs": [], "sha256": listed}))
+    assert not store.holds("a", tmp_path, Digests())
