@@ -214,7 +214,7 @@ class MatFindings(Result):
     @cached_property
     def peak(self) -> Float[np.ndarray, " n"]:
         """Largest pressure of each cell over time [Pa]."""
-        return np.max([part.max(axis=0, initial=0.0) for (part,) in parts(self.pressure)], axis=0)
+        return np.asarray(np.max([part.max(axis=0, initial=0.0) for (part,) in parts(self.pressure)], axis=0))
 
     @property
     def deviation(self) -> Float[np.ndarray, "t six"]:
