@@ -249,7 +249,7 @@ def _default(field: FieldInfo) -> str:
     """What counts where the key is left out; `REQUIRED` where it may not be."""
     if field.is_required():
         return REQUIRED
-    value = field.default
+    value = field.get_default(call_default_factory=True, validated_data={})
     value = value.value if isinstance(value, StatedNumber) else value
     if isinstance(value, bool):
         return str(value).lower()

@@ -145,7 +145,7 @@ class KeelDescription(Document):
     posterior
         From its posterior end to the first joint.
     joints
-        How many, evenly from the first to the tip; 8 by default.
+        How many, evenly from the first to the tip.
     lowest, highest
         Range of the fulcrum.
     width, density

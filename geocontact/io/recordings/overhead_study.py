@@ -86,7 +86,7 @@ class StudyTask(Document):
     push
         Force on the work while the tool runs.
     push_direction
-        Its direction in the markers' axes; upwards, [0, 1, 0], by default.
+        Its direction in the markers' axes; upwards by default.
     dominant_share
         Part of it that the dominant hand exerts; `optimise` only, which has an option for it.
     """
