@@ -462,6 +462,14 @@ def test_detectability_and_the_next_experiment() -> None:
         assert len(versions) == 1, "figures of several versions are added up"
 
 
+def test_the_promise_of_the_next_experiment_is_kept() -> None:
+    text = " ".join((ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8").split())
+    told = results("gap_next_experiment_closed")["all"]
+    said = f"{told['proposals']} proposals promised {told['promised']:.0%}, in {told['kept']:.0%} of {told['repetitions']}"
+    assert said.replace("%", " %") in text
+    assert abs(told["kept"] - told["promised"]) <= 0.1
+
+
 def seen(own: list[dict[str, Any]]) -> list[str]:
     """How many of how many simulations were seen, at each amplitude."""
     at = [[each["seen"] for each in own if each["times"] == times] for times in (0.5, 1.0, 1.5)]
