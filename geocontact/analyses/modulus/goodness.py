@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.modulus.identified import Identified
-from geocontact.analyses.modulus.inputs import HALVES
+from geocontact.analyses.modulus.inputs import BOTH, HALVES
 from geocontact.analyses.modulus.recommended import agree_by_width, recommended
 from geocontact.data.plausible import ADHESION, BEARING, CONTACT
 from geocontact.elastic_modulus.area_force import MODULUS, WORK, ThresholdAreas
@@ -81,7 +81,7 @@ def radius_by_areas(areas: ThresholdAreas) -> float:
 def _of_radius(side: str, areas: ThresholdAreas) -> Iterable[Doubt]:
     """A doubt for a radius that is not that by which the area grows with the threshold."""
     shown, given = radius_by_areas(areas), float(np.median(areas.radius))
-    if side not in HALVES:  # one contact, or the sum of two
+    if side not in (BOTH, *HALVES):  # one contact, or the sum of two
         far = given > LARGER_RADIUS * shown > 0.0
     else:
         far = shown > 0.0 and max(given / shown, shown / given) > OTHER_RADIUS

@@ -449,7 +449,7 @@ def test_a_class_is_the_answer_where_effects_are_one_law() -> None:
     assert second == f"these trials cannot distinguish damping from filter_lag: {close}"
     assert third == "slip is not ruled out: the two differ by 8.0 nats on these trials"
     both = said(**alike | {"effects": ("damping", "preload")})[0]
-    assert both.startswith("damping or filter_lag (one law on these trials) and preload are missing")
+    assert both.startswith("damping or filter_lag (one law on these trials), and preload are missing")
     many = said(**alike | {"effects": (), "verdict": "unresolved"})
     assert many[1] == second and "separate damping, filter_lag and slip" in many[0]
 

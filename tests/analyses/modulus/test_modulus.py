@@ -140,7 +140,7 @@ def test_radius_over_flexion(tmp_path: Path) -> None:
         tmp_path / "profile.csv", "side,flexion [deg],radius [mm]\nwhole,-10,74\nwhole,0,74\nwhole,40,74\n"
     )
     motion = written(tmp_path / "knee.csv", "time [s],knee [deg]\n0,0\n1.2,-30\n")
-    with pytest.warns(InputWarning, match=r"on a radius of 42.* R is 74 mm: is one of them a diameter"):
+    with pytest.warns(InputWarning, match=r"on a radius of 43.* R is 74 mm: is one of them a diameter"):
         result = found(tmp_path, profile=profile, flexion=motion, map="flexion=-knee")
     assert result.modulus == pytest.approx(2.0 * TRUE, rel=1e-5), "twice the radius takes twice the modulus"
     with pytest.raises(InputError, match=r"flexion from -27\.5 to 0\.0; extend `profile`"):
