@@ -465,7 +465,9 @@ def test_detectability_and_the_next_experiment() -> None:
 def test_the_promise_of_the_next_experiment_is_kept() -> None:
     text = " ".join((ROOT / "docs" / "reference/gap_benchmark.md").read_text(encoding="utf-8").split())
     told = results("gap_next_experiment_closed")["all"]
-    said = f"{told['proposals']} proposals promised {told['promised']:.0%}, in {told['kept']:.0%} of {told['repetitions']}"
+    said = (
+        f"{told['proposals']} proposals promised {told['promised']:.0%}, in {told['kept']:.0%} of {told['repetitions']}"
+    )
     assert said.replace("%", " %") in text
     assert abs(told["kept"] - told["promised"]) <= 0.1
 

@@ -150,12 +150,17 @@ def finer(name: str, refine: int) -> tuple[Trial, ...]:
 
 @pytest.mark.parametrize(("name", "one"), FITTED, ids=label)
 def test_finer_sampling_changes_less_and_less(name: str, one: Candidate) -> None:
+    """At least of order 0.75: over two halvings, over three where a force jumps at the edge of a zone.
+
+    There a step ends before or after the edge by chance, and one halving more or less decides nothing.
+    """
     system, _ = EXAMPLES[name]
     values = {**system.start, **truth(one)}
+    halvings = 3 if (name, one.label) == ("shoulder", "dead_zone") else 2
     got = [
         np.concatenate([one.apply(system).simulate(trial, values)[::refine] for trial in finer(name, refine)])
-        for refine in (1, 2, 4, 8)
+        for refine in (1, 2, 4, 8, 16)[: halvings + 2]
     ]
     steps = [difference(system, a, b) for a, b in itertools.pairwise(got)]
     assert steps[2] < 2e-3, steps
-    assert steps[2] < 1e-6 or steps[0] / steps[2] > 2.0**1.5, steps  # at least order 0.75 over two halvings
+    assert steps[-1] < 1e-6 or steps[0] / steps[-1] > 2.0 ** (0.75 * halvings), steps
