@@ -147,7 +147,7 @@ def test_poses_come_from_the_motion(pair):
 def test_generator_reproduces_what_takes_it_seconds():
     """Everything but the whole gait cycle and three of the four mats."""
     files = all_knee_files() | simple_files() | leg_files() | overhead_files() | recording_files(kneeling())
-    assert len(files) == 6 + len(SAMPLES) + 2 + 3 + 7
+    assert len(files) == 6 + len(SAMPLES) + 9 + 3 + 7
     assert differing(files, FOLDER) == []
 
 
@@ -168,5 +168,5 @@ def test_generator_reproduces_every_byte():
     assert done.returncode == 0, done.stdout + done.stderr
     # by make_gait.py, make_standing.py and whole_body.py: digits depend on the compiler
     simulated = [file for file in FILES if str(file).startswith(("gait_P1", "amputee_P1", "standing_up", "whole_body"))]
-    assert len(simulated) == 6 + 4 + 11 + 17 + 7 + 2 + 18 + 3
+    assert len(simulated) == 8 + 8 + 11 + 19 + 7 + 18 + 3
     assert f"{len(FILES) - len(simulated)} files" in done.stdout
