@@ -33,7 +33,6 @@ def test_the_fit_is_tested_over_the_stance_whatever_is_scored(
     name = f"resultant force{OVER[score]}"
     found = against_the_plate(*too_large, OVER[score])
     assert any(each.contradicts and each.what.startswith(name) for each in found.doubts)
-    trial = SimpleNamespace(name="a", person="P", foot="low", calibrated=False)
-    one: Any = SimpleNamespace(trial=trial, plate=too_large[1])
+    one: Any = SimpleNamespace(name="a", person="P", setting="low", calibrated=False, plate=too_large[1])
     study = against_the_plates([(one, too_large[0])], OVER[score])
     assert any(each.contradicts and each.what.startswith(name) for each in study.doubts)
