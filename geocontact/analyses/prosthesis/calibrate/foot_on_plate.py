@@ -42,7 +42,7 @@ ANGLES_CUTOFF = 6.0
 
 
 @dataclass(frozen=True)
-class AskedStance:
+class StanceFiles:
     """Files of one stance and the setting of the foot in it; in a study its name there."""
 
     name: str
@@ -59,7 +59,7 @@ class AskedStance:
 class StanceOnPlate:
     """A stance as of a right leg; for the whole model the markers, their fit and the leg's motion."""
 
-    asked: AskedStance
+    asked: StanceFiles
     stance: RecordedStance
     seen: MarkerTrajectories
     fit: Walked | None
@@ -81,7 +81,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
         fulcrum_at(foot, o.setting, o.fulcrum)
         foot = foot_with_law(foot, o.law)
         require_factors(foot, o.foot, o.law)
-    first = AskedStance("", o.markers, o.static, o.plates, o.plate, o.other_plate, o.setting, o.fulcrum)
+    first = StanceFiles("", o.markers, o.static, o.plates, o.plate, o.other_plate, o.setting, o.fulcrum)
     more = further_stances(o)
     asked = [replace(first, name=FIRST) if more else first, *more]
     found = tuple(_stance(each, foot, o) for each in asked)
@@ -90,7 +90,7 @@ def read(o: ProsthesisCalibrateOptions) -> FootOnPlate:
     return FootOnPlate(foot, found)
 
 
-def further_stances(o: ProsthesisCalibrateOptions) -> list[AskedStance]:
+def further_stances(o: ProsthesisCalibrateOptions) -> list[StanceFiles]:
     """Stances of the study that are fitted together with the one named; InputError where they are no such stances.
 
     Those marked as `calibrated`, all of the person where none is; the one named itself is left out.
@@ -116,7 +116,7 @@ def further_stances(o: ProsthesisCalibrateOptions) -> list[AskedStance]:
     if person.law is not None or any(each.law is not None for each in own):
         reserve(f"{o.further}: its laws are not used here; `law` has the usual numbers")
     return [
-        AskedStance(
+        StanceFiles(
             each.name,
             each.markers,
             person.static,
@@ -151,7 +151,7 @@ def _same(one: Path, other: Path) -> bool:
     return one.resolve() == other.resolve()
 
 
-def _stance(asked: AskedStance, foot: VariableStiffnessFoot, o: ProsthesisCalibrateOptions) -> StanceOnPlate:
+def _stance(asked: StanceFiles, foot: VariableStiffnessFoot, o: ProsthesisCalibrateOptions) -> StanceOnPlate:
     """One stance from its files."""
     fulcrum = fulcrum_at(foot, asked.setting, asked.fulcrum)
     named = _same(asked.markers, o.markers)

@@ -27,8 +27,8 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import by_name
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.prosthesis.calibrate.foot_on_plate import (
-    AskedStance,
     FootOnPlate,
+    StanceFiles,
     along_poses,
     on_whole_model,
     read,
@@ -284,7 +284,7 @@ def run(given: FootOnPlate, o: ProsthesisCalibrateOptions) -> ProsthesisCalibrat
     return result
 
 
-def _setting(asked: AskedStance) -> str:
+def _setting(asked: StanceFiles) -> str:
     return asked.setting if asked.fulcrum is None else f"{1e3 * asked.fulcrum:g} mm"
 
 
