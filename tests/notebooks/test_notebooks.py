@@ -25,11 +25,6 @@ from website.kept_outputs import kept
 
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
-OWED = {"prosthesis", "shoulder"}
-"""Notebooks whose outputs are still to be made: `python -m website.notebooks NAME`, then leave the name out here."""
-RUN = [notebook for notebook in NOTEBOOKS if notebook.stem not in OWED]
-
-
 SHOWS = re.compile(r"(\.figures?\(.*\)(\[.*\])?|\.plot\(.*\);?|\.legend\(\);|aspect=.*\);)\s*\Z")
 """End of a cell below which a picture is meant."""
 
@@ -80,7 +75,7 @@ def run(tmp_path, monkeypatch):
         NotebookClient(book, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
         of_the_file = said_by(json.loads(notebook.read_text(encoding="utf-8"))["cells"])
         now = said_by(kept(copy.deepcopy(book), str(tmp_path), lambda page: BLANK)["cells"])
-        assert notebook.stem in OWED or now == of_the_file, f"run python -m website.notebooks {notebook.stem}"
+        assert now == of_the_file, f"run python -m website.notebooks {notebook.stem}"
         cells = [cell for cell in book.cells if cell.cell_type == "code"]
         for cell in cells:
             assert shown_bytes(cell) < LARGEST, f"{shown_bytes(cell)} bytes below {cell.source}"
@@ -106,7 +101,7 @@ def test_kept_for_any_python(notebook):
     assert {key for cell in book["cells"] for key in cell["metadata"]} <= {"mystnb"}, "no times of execution"
 
 
-@pytest.mark.parametrize("notebook", RUN, ids=lambda path: path.stem)
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
 def test_outputs_are_of_the_code_beside_them(notebook):
     """The hash of all code when it was run; every cell that ends with a value or prints has something below it."""
     book = json.loads(notebook.read_text(encoding="utf-8"))
@@ -124,19 +119,12 @@ def test_outputs_are_of_the_code_beside_them(notebook):
         )
 
 
-@pytest.mark.parametrize("name", sorted(OWED))
-def test_what_is_owed_is_without_outputs(name):
-    """Else its name is to be left out above."""
-    book = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8"))
-    assert not any(cell.get("outputs") for cell in book["cells"]) and "geocontact" not in book["metadata"]
-
-
 PLACE = re.compile(r"(?<![\w.])/(?:tmp|home|root|work|usr|var|mnt|opt|Users)/|\b[A-Z]:\\\\")
 MOMENT = re.compile(r"\b\d\d?:\d\d:\d\d\b|\b\d{4}-\d\d-\d\d[T ]\d\d")
 LARGEST_PICTURE, LARGEST_BOOK, LARGEST_FOLDER = 100_000, 1_000_000, 6_000_000
 
 
-@pytest.mark.parametrize("notebook", RUN, ids=lambda path: path.stem)
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
 def test_outputs_are_small_and_name_no_machine(notebook):
     assert notebook.stat().st_size <= LARGEST_BOOK
     assert sum(each.stat().st_size for each in NOTEBOOKS) <= LARGEST_FOLDER
@@ -175,7 +163,7 @@ def test_bodies_are_shown_live_once(name):
     assert sum(cell.endswith(".embedded()") for cell in cells) == 1
 
 
-@pytest.mark.parametrize("name", sorted(set(WITH_BODIES) - OWED))
+@pytest.mark.parametrize("name", sorted(WITH_BODIES))
 def test_a_picture_of_the_page_stands_where_nothing_runs(name):
     """A viewer of repositories leaves the live page out: the first screen of it is kept in its place."""
     book = json.loads((ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8"))
