@@ -29,13 +29,11 @@ from scipy.stats import t
 
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit
-from geocontact.gap.levels import FEW, PHASES
+from geocontact.gap.levels import FEW, PHASES, TWOFOLD
 from geocontact.gap.reduction.repeats import axes_of
 
 SHAPE = (FEW, FEW, 2)
 """Cells of a channel: parts of the phase, quarters of a state, down and up."""
-HALF = 0.5
-"""Part of the mean of all trials that either set of trials must have."""
 Cells = Bool[np.ndarray, "c k"]
 
 
@@ -98,7 +96,7 @@ class StateCells:
         able = (trials > 1) & (mean != 0.0)
         for some in (slice(self.fitted), slice(self.fitted, None)):
             own = means[some].sum(axis=0) / np.maximum(there[some].sum(axis=0), 1)
-            able &= own * np.sign(mean) >= HALF * np.abs(mean)
+            able &= own * np.sign(mean) >= np.exp(-TWOFOLD) * np.abs(mean)
         deviations = np.abs(mean[able]) / np.maximum(off[able], 1e-300)
         found = np.ones(mean.shape)
         found[able] = 2.0 * t.sf(deviations, trials[able] - 1)
