@@ -4,9 +4,8 @@ Cells without structure (`geocontact.gap.localise.structure`) and parameters tha
 turn (least trimmed squares by concentration steps, Rousseeuw & Van Driessen 2006, Data Min. Knowl. Discov. 12:29, over
 cells in place of samples; for grey-box models: Wang 2026, arXiv 2606.23215). What only cells with structure identify
 stays identified: half of them come back, the least structure first, until no standard deviation of a parameter is more
-than twice that of all samples. Mostly it ends nearer to the true
-parameters; a stop with friction left it 70 % off, and pairs of effects in elbows and knees of laboratories sent it
-further away: the diagnosis does not use it.
+than twice that of all samples. Mostly it ends nearer to the true parameters; a stop with friction left it 70 % off, and
+pairs of effects in elbows and knees of laboratories sent it further away: the diagnosis does not use it.
 """
 
 from __future__ import annotations

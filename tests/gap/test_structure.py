@@ -106,15 +106,18 @@ def test_slow_noise_and_what_trials_differ_by_make_no_region(kind: str, trials: 
     assert cases <= 0.08 * draws
 
 
-def test_parameters_that_calibration_trials_centre_do_not_make_structure() -> None:
+@pytest.mark.parametrize(("trials", "fitted"), [(6, 3), (8, 2), (8, 6)])
+def test_parameters_that_calibration_trials_centre_do_not_make_structure(trials: int, fitted: int) -> None:
     """A gain that varies, fitted to the calibration trials: what it leaves of the others is alike in all of these."""
     rng, cases, draws = np.random.default_rng(7), 0, 200
-    one, angle = grid(rng), np.sin(12.0 * np.pi * PHASE)[:, None]
+    angle = np.sin(12.0 * np.pi * PHASE)[:, None]
+    which = (((PHASE * 4).astype(int)[:, None] * 8 + np.minimum((angle + 1.0) * 4.0, 7.0).astype(int)),) * trials
+    one = StateCells(which, ("angle",), fitted)
     for _ in range(draws):
-        gains = rng.standard_normal(TRIALS)
-        gains -= gains[:FITTED].mean()
-        p = one.p_values([k * angle + 0.1 * each for k, each in zip(gains, noise(rng), strict=True)])[0]
-        cases += bool((benjamini_yekutieli(p) <= 0.05).any())
+        gains = rng.standard_normal(trials)
+        gains -= gains[:fitted].mean()
+        p = one.p_values([k * angle + 0.1 * rng.standard_normal((N, 1)) for k in gains])
+        cases += bool((benjamini_yekutieli(p[one.tested]) <= 0.05).any())
     assert cases <= 0.08 * draws
 
 

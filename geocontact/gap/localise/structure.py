@@ -8,9 +8,9 @@ m their mean and s their standard deviation,
 
 t of Student's distribution with n - 1 degrees of freedom: trials are independent, samples of one are not, so that slow
 noise, offsets and what trials differ by are in s. A cell has *structure* only where the means of the calibration trials
-and of those that were left out have the sign of m and half of its size at least; elsewhere p = 1, which makes p no
-smaller than chance does. Parameters fitted to calibration trials centre what these vary by, and the share of m that
-then comes from the others has the variance that n trials have by themselves.
+and of those that were left out have the sign of m and half of its size at least; elsewhere p = 1, so that p is only
+raised. Parameters fitted to calibration trials centre what these vary by; what the others then have alike does not
+count, since the calibration trials lack it.
 
 Few trials show little: in one of 32 cells |m| / s must be 29 of three trials, 9 of four, 3 of six.
 
