@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -69,7 +68,7 @@ def of_joint(kind: tuple[str, ...], seed: int) -> dict[str, Any]:
     """Bias, and cells right, too many and missed, of one case."""
     from benchmarks.gap.clean_regime import clean_regime, on_all_trials
     from geocontact.gap.case.preparation import problem_of
-    from geocontact.gap.localise.structure import Structure, structure
+    from geocontact.gap.localise.structure import Structure
     from geocontact.gap.selection.model_comparison import base_contender
     from geocontact.systems.elastic_joint import JOINT
 
@@ -77,10 +76,7 @@ def of_joint(kind: tuple[str, ...], seed: int) -> dict[str, Any]:
     problem = problem_of(one, JOINT.build(one.parameters, one.constants, one.tables))
     base = base_contender(problem).judged
     clean = clean_regime(problem, base)
-    noise = problem.with_lower_noise(base.noise)
-    everything = replace(
-        clean, p_values=structure(problem, clean.grid, on_all_trials(problem, problem.plain.values), noise)
-    )
+    everything = Structure.within(clean.grid, on_all_trials(problem, problem.plain.values))
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
     acts = [np.abs(withheld[trial.name]) > NOISE for trial in trials]
     true = true_cells(clean.grid.which, acts, clean.p_values.shape[1])

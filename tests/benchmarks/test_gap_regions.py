@@ -85,6 +85,25 @@ def test_a_load_is_found_where_it_acts_and_nothing_where_nothing_does(elsewhere:
     found = elsewhere(of_joint, ("load",), 0)
     assert found["everything"]["right"] >= 7
     assert found["everything"]["missed"] <= 1
+    assert found["everything"]["too_many"] == 0
     assert tuple(found["bias"]) == FITS
     nothing = elsewhere(of_joint, (), 0)
     assert nothing["everything"] == nothing["clean"] == {"right": 0, "too_many": 0, "missed": 0}
+
+
+@pytest.mark.slow
+def test_a_load_has_structure_in_no_other_part_of_the_trial() -> None:
+    """The stiffness is the true one, nothing is fitted: all that is missed is the load, and residuals say so."""
+    from benchmarks.gap.clean_regime import on_all_trials
+    from geocontact.gap.case.preparation import problem_of
+    from geocontact.gap.localise.structure import Structure
+    from geocontact.systems.elastic_joint import JOINT
+
+    one, withheld = case(("load",), 0)
+    problem = problem_of(one, JOINT.build(one.parameters, one.constants, one.tables))
+    left = Structure.of(problem, on_all_trials(problem, {"k": STIFFNESS}))
+    trials = [*problem.calibration.trials, *problem.evaluation.trials]
+    true = true_cells(left.grid.which, [np.abs(withheld[each.name]) > NOISE for each in trials], 32)
+    scores = compared(left.q_values[0] <= 0.05, true, left.grid.tested[0])
+    assert scores["too_many"] == 0
+    assert scores["right"] >= 4

@@ -24,7 +24,7 @@ from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
 
 def regions(problem: Problem, base: Judged) -> tuple[Region, ...]:
     """Where the base model misses something; the largest share first."""
-    left = Structure.of(problem, base)
+    left = Structure.of(problem, base.model)
     found = left.q_values <= 1.0 - CONFIDENCE
     each = (region_of(problem, left, c, cells) for c in range(len(found)) for cells in touching(found[c]))
     return tuple(sorted(each, key=lambda one: -one.share))

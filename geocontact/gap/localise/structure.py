@@ -1,21 +1,21 @@
 """Cells of phase, state and rate in which a base model misses what calibration and held-out trials have alike.
 
 Every channel is cut into cells: parts of the trial, quarters of the range of the input that the channel follows most
-closely, on the way up and on the way down. With S the sum over a cell of whitened residuals (noise as stated,
-trial-to-trial variation) and n its samples, of the calibration trials and of those that were left out,
+closely, on the way up and on the way down. With m_i the mean residual of trial i in a cell, of n trials that reach it,
+m their mean and s their standard deviation,
 
-    z = S / (λ √n),   λ² = mean over cells of (S_c/n_c - S_o/n_o)² / (1/n_c + 1/n_o),
+    p = 2 P(t > √n |m| / s),
 
-where λ, of each channel, is pure error: what both sets of trials have alike drops out of the differences, slow noise
-and what trials differ by do not (lack of fit against pure error, Fisher 1922). A cell has *structure* where both z have
-one sign and are large. Where nothing is missing both are at least T in the same sense with
+t of Student's distribution with n - 1 degrees of freedom: trials are independent, samples of one are not, so that slow
+noise, offsets and what trials differ by are in s. A cell has *structure* only where the means of the calibration trials
+and of those that were left out have the sign of m and half of its size at least; elsewhere p = 1, so that p is only
+raised. Parameters fitted to calibration trials centre what these vary by; what the others then have alike does not
+count, since the calibration trials lack it.
 
-    p = 2 P(t > T)²,   T = min(|z_c|, |z_o|),
+Few trials show little: in one of 32 cells |m| / s must be 29 of three trials, 9 of four, 3 of six.
 
-t of Student's distribution with as many degrees of freedom as cells: one set of trials alone makes no structure.
-
-A base model that is fitted to everything spreads what a part of the movement misses over other parts, and so does the
-variation between trials that residuals are whitened by; cells beside a strong effect are then found in vain.
+A base model that is fitted to everything spreads what a part of the movement misses over other parts: cells beside a
+strong effect are then found in vain.
 """
 
 from __future__ import annotations
@@ -27,12 +27,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.stats import t
 
-from geocontact.gap.case.problem import Noise, Problem
+from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit
-from geocontact.gap.levels import FEW, PHASES
+from geocontact.gap.levels import FEW, PHASES, TWOFOLD
 from geocontact.gap.reduction.repeats import axes_of
-from geocontact.gap.selection.evidence import Judged
-from geocontact.gap.selection.held_out_rules import whitened_samples
 
 SHAPE = (FEW, FEW, 2)
 """Cells of a channel: parts of the phase, quarters of a state, down and up."""
@@ -46,7 +44,8 @@ class StateCells:
     Parameters
     ----------
     which
-        Number of the cell, -1 where nothing was measured or the cell has too few samples.
+        Number of the cell, -1 where nothing was measured or the trial has too few samples in it, and where one set of
+        trials has none of these.
     inputs
         Input that each channel follows, "" where it follows none.
     fitted
@@ -69,12 +68,11 @@ class StateCells:
         for i, (own, there) in enumerate(zip(part, present, strict=True)):
             state = [axes[name][i] if name else np.zeros(len(own), int) for name in inputs]
             place = own[:, None] * SHAPE[1] * SHAPE[2] + np.stack(state, axis=1)
-            which.append(np.where(there, place, -1))
+            own_place = np.where(there, place, -1)
+            which.append(_where(counts_of([own_place]) >= FEW, own_place))
         fitted = len(problem.calibration.trials)
-        counts = np.array([counts_of(which[:fitted]), counts_of(which[fitted:])])
-        enough: Cells = np.all(counts >= FEW, axis=0)
-        channels = np.arange(len(inputs))
-        kept = tuple(np.where((w >= 0) & enough[channels, np.maximum(w, 0)], w, -1) for w in which)
+        both: Cells = np.all([counts_of(some) > 0.0 for some in (which[:fitted], which[fitted:])], axis=0)
+        kept = tuple(_where(both, own) for own in which)
         return cls(kept, inputs, fitted)
 
     @property
@@ -84,23 +82,24 @@ class StateCells:
 
     def inside(self, cells: Cells) -> list[Bool[np.ndarray, "_ c"]]:
         """Samples that lie in some cells, per trial."""
-        channels = np.arange(len(cells))
-        return [(w >= 0) & cells[channels, np.maximum(w, 0)] for w in self.which]
+        return [_where(cells, own) >= 0 for own in self.which]
 
-    def p_values(self, white: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
-        """p of structure in each cell, of whitened residuals in their place; 1 where it is not tested."""
-        sets = (slice(self.fitted), slice(self.fitted, None))
-        sums = np.array([self.sums(white[some], self.which[some]) for some in sets])
-        counts = np.array([counts_of(self.which[some]) for some in sets])
-        found, tested = np.ones(counts.shape[1:]), self.tested
-        for c, there in enumerate(tested):
-            s, n = sums[:, c, there], counts[:, c, there]
-            off = (s[0] / n[0] - s[1] / n[1]) ** 2 / (1.0 / n).sum(axis=0)
-            if there.sum() < 2 or not off.sum() > 0.0:
-                continue
-            z = s / np.sqrt(n * off.mean())
-            least = np.where(z[0] * z[1] > 0.0, np.abs(z).min(axis=0), 0.0)
-            found[c, there] = np.minimum(1.0, 2.0 * t.sf(least, there.sum()) ** 2)
+    def p_values(self, residuals: Sequence[Float[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
+        """p of structure in each cell, of residuals in the channels' units; 1 where it is not tested."""
+        counts = np.array([counts_of([own]) for own in self.which])
+        sums = np.array([self.sums([r], [own]) for r, own in zip(residuals, self.which, strict=True)])
+        there, means = counts > 0.0, sums / np.maximum(counts, 1.0)
+        trials = there.sum(axis=0)
+        mean = means.sum(axis=0) / np.maximum(trials, 1)
+        square = np.where(there, (means - mean) ** 2, 0.0).sum(axis=0)
+        off = np.sqrt(square / (np.maximum(trials, 1) * np.maximum(trials - 1, 1)))
+        able = (trials > 1) & (mean != 0.0)
+        for some in (slice(self.fitted), slice(self.fitted, None)):
+            own = means[some].sum(axis=0) / np.maximum(there[some].sum(axis=0), 1)
+            able &= own * np.sign(mean) >= np.exp(-TWOFOLD) * np.abs(mean)
+        deviations = np.abs(mean[able]) / np.maximum(off[able], 1e-300)
+        found = np.ones(mean.shape)
+        found[able] = 2.0 * t.sf(deviations, trials[able] - 1)
         return found
 
     @staticmethod
@@ -113,6 +112,11 @@ class StateCells:
             for c, (column, cell) in enumerate(zip(own.T, cells.T, strict=True)):
                 found[c] += np.bincount(cell[cell >= 0], column[cell >= 0], found.shape[1])
         return found
+
+
+def _where(cells: Cells, which: Int[np.ndarray, "_ c"]) -> Int[np.ndarray, "_ c"]:
+    """Numbers of cells, -1 outside of some."""
+    return np.where((which >= 0) & cells[np.arange(len(cells)), np.maximum(which, 0)], which, -1)
 
 
 def counts_of(which: Sequence[Int[np.ndarray, "_ c"]]) -> Float[np.ndarray, "c k"]:
@@ -141,10 +145,14 @@ class Structure:
     p_values: Float[np.ndarray, "c k"]
 
     @classmethod
-    def of(cls, problem: Problem, base: Judged) -> Structure:
-        """What a base model leaves, under noise no higher than stated."""
-        grid, noise = StateCells.of(problem, base.model), problem.with_lower_noise(base.noise)
-        return cls(grid, base.model, structure(problem, grid, base.model, noise))
+    def of(cls, problem: Problem, model: Refit) -> Structure:
+        """What a base model, evaluated on all trials, leaves."""
+        return cls.within(StateCells.of(problem, model), model)
+
+    @classmethod
+    def within(cls, grid: StateCells, model: Refit) -> Structure:
+        """The same in given cells."""
+        return cls(grid, model, grid.p_values(model.residuals))
 
     @property
     def q_values(self) -> Float[np.ndarray, "c k"]:
@@ -165,8 +173,3 @@ def benjamini_yekutieli(p: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
     q = np.empty(len(p))
     q[order] = np.minimum(1.0, np.minimum.accumulate(scaled[::-1])[::-1])
     return q
-
-
-def structure(problem: Problem, grid: StateCells, model: Refit, noise: Noise) -> Float[np.ndarray, "c k"]:
-    """p of structure that a base model, evaluated on all trials, leaves in each cell, whitened by a noise."""
-    return grid.p_values(whitened_samples(problem.whitenings(noise, model), noise, model.residuals))

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from geocontact.analyses.gap.diagnose.answer import with_classes
-from geocontact.analyses.gap.diagnose.page_answers import region_block, region_words
+from geocontact.analyses.gap.diagnose.page_answers import region_block, region_caption, region_words
+from geocontact.analyses.gap.diagnose.show import regions_table
 from geocontact.data.gap_cells import Region
 
 UNITS = ("N", "rad")
@@ -42,3 +43,17 @@ def test_a_member_of_a_pair_is_named_as_its_class() -> None:
         "dead_zone, and filter_lag or time_shift (one law on these trials)"
     )
     assert with_classes(SimpleNamespace(one_law=()), ("damping", "slip")) == "damping and slip"  # type: ignore[arg-type]
+
+
+def test_no_gap_beside_a_region_says_first_that_it_has_no_share_worth_a_name() -> None:
+    first = " `no_gap` beside regions: what is surely missed there is less than 10 % of a channel's squared error"
+    for verdict, missing in (("no_gap", "no share worth a name"), ("unknown", "something")):
+        d = SimpleNamespace(verdict=verdict, regions=(EARLY,))
+        words = region_caption(d)  # type: ignore[arg-type]
+        assert words.startswith(first) == (verdict == "no_gap")
+        assert "one in twenty" in words
+        system = SimpleNamespace(unit=lambda _: "N")
+        findings = SimpleNamespace(diagnosis=d, attribution=SimpleNamespace(problem=SimpleNamespace(system=system)))
+        table = regions_table(findings)  # type: ignore[arg-type]
+        assert table.title == f"Regions in which the base model misses {missing}"
+    assert region_caption(SimpleNamespace(verdict="no_gap", regions=())) == ""  # type: ignore[arg-type]

@@ -12,8 +12,10 @@ from geocontact.analyses.gap.diagnose.answer import axis_units
 from geocontact.analyses.gap.diagnose.curves import effect_words, quantity_of
 from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
 from geocontact.analyses.gap.nats import ODDS, ahead_words
+from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, Region
 from geocontact.gap.diagnose import Findings
+from geocontact.gap.levels import WORTH_NAMING
 from geocontact.gap.localise.structure import SHAPE
 from geocontact.view.curves.gap_map import ENERGIES, MARKS, SIGNIFICANT, WIDE, edge_text
 from geocontact.view.curves.quantity import Quantity
@@ -32,9 +34,14 @@ MAP = (
     f"(p-value of at most {SIGNIFICANT:g} for the whole map). Inputs, rates and load are cut so that each cell has as "
     "many samples. All trials, base model."
 )
+NO_SHARE = (
+    f" `no_gap` beside regions: what is surely missed there is less than {100.0 * WORTH_NAMING:.0f} % of a channel's "
+    "squared error, no share worth a name."
+)
 REGIONS = (
-    " Regions are cells of phase, state and rate that touch; of those that are found one in twenty at most is chance "
-    "(false-discovery rate). Beside a strong gap they reach beyond its place."
+    " Regions are cells of phase, state and rate that touch; where trials are independent, on average one in twenty at "
+    "most of those that are found is chance (false-discovery rate). Beside a strong gap they reach beyond its place, "
+    "and of few trials little is found."
 )
 REDUCTIONS = (
     "Root mean square error on trials that no parameter was fitted to. The whisker is the 95 % interval of the error "
@@ -53,7 +60,14 @@ def map_strips(findings: Findings) -> Strips:
     whose = f" of {channels[0]}" if len(channels) == 1 else ""
     found = findings.diagnosis.regions
     blocks += [region_block(found, channels)] if found else []
-    return Strips(f"Where the gap{whose} is", "", channels, blocks, SCALE, MAP + (REGIONS if found else ""))
+    return Strips(f"Where the gap{whose} is", "", channels, blocks, SCALE, MAP + region_caption(findings.diagnosis))
+
+
+def region_caption(d: Diagnosis) -> str:
+    """What regions are; beside `no_gap` first that they hold no share worth a name."""
+    if not d.regions:
+        return ""
+    return (NO_SHARE if d.verdict == "no_gap" else "") + REGIONS
 
 
 def region_block(found: Sequence[Region], channels: Sequence[str]) -> StripBlock:

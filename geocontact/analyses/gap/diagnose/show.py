@@ -182,7 +182,8 @@ def regions_table(findings: Findings) -> Table:
         missed = f"{float(quantity.shown(np.array(one.mean))):+.3g} {quantity.unit}"
         rows.append((one.channel, one.place, missed, f"{percent(one.share)} %", f"{one.q_value:.2g}"))
     header = ("channel", "where", "measured less predicted", "share of the squared error", "false-discovery rate")
-    return Table("Regions in which the base model misses something", header, rows)
+    missing = "no share worth a name" if findings.diagnosis.verdict == "no_gap" else "something"
+    return Table(f"Regions in which the base model misses {missing}", header, rows)
 
 
 def gap_page(case: GapCase, findings: Findings, drawings: Mapping[str, bytes], injected: Sequence[str] = ()) -> Page:
