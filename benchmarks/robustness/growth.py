@@ -1,10 +1,10 @@
 """How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER`, 12 CPU minutes.
 
 Synthetic inputs of four sizes for each command; CPU seconds and peak memory of a process of its own, on one thread,
-kernels compiled before. The slope of CPU time is that of a straight line through the logarithms of the larger three
-sizes, after what the smallest takes has been subtracted: 1 where each further row costs the same. That of memory is
-through all four sizes, the program with them: 0 where memory does not grow. Writes results/growth.json, in which
-commands that were not run stay as they were, and prints the table of docs/reference/speed.md.
+kernels compiled before. Slopes are those of a straight line through the logarithms of the larger three sizes, after
+what the smallest takes has been subtracted, the program with it: 1 where each further row costs the same. Writes
+results/growth.json, in which commands that were not run stay as they were, and prints the table of
+docs/reference/speed.md.
 """
 
 from __future__ import annotations
@@ -243,7 +243,7 @@ def table(runs: Sequence[Run]) -> list[dict[str, object]]:
                 "command": command,
                 "runs": [asdict(run) for run in own],
                 "cpu_slope": slope(sizes, [run.cpu_s for run in own]),
-                "memory_slope": float(np.polyfit(np.log(sizes), np.log([run.peak_mb for run in own]), 1)[0]),
+                "memory_slope": slope(sizes, [run.peak_mb for run in own]),
                 "memory_kb_each": round(memory, 3),
             }
         )

@@ -8,6 +8,7 @@ names another place where that one is small, or is memory itself (tmpfs).
 
 from __future__ import annotations
 
+import errno
 import math
 import mmap
 import os
@@ -124,4 +125,6 @@ def _space(size: int) -> Iterator[None]:
         yield
     except OSError as error:
         what = f"cannot hold {size / 1e9:.2g} GB of a long recording for a while ({error.strerror})"
-        raise InputError(gettempdir(), "", what, "name another folder in TMPDIR") from error
+        full = error.errno not in (errno.EMFILE, errno.ENFILE)
+        remedy = "name another folder in TMPDIR" if full else "allow more open files (ulimit -n)"
+        raise InputError(gettempdir(), "", what, remedy) from error

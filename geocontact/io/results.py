@@ -88,10 +88,21 @@ def write_netcdf(table: pd.DataFrame, file: Path, about: Mapping[str, str]) -> N
             _write(out, names[axis], axis, np.asarray(values), (names[axis],))
         dimensions = tuple(names[axis] for axis in axes) or (ROW,)
         shape = tuple(table[axis].nunique() for axis in axes) or (len(table),)
-        for column in map(str, table.columns):
-            if column not in axes:
-                values = table[column].to_numpy().reshape(shape)
-                _write(out, names[column], column, values, dimensions, each=table.shape[1])
+        kinds = {str(name): _kind(table[name].to_numpy()) for name in table.columns if str(name) not in axes}
+        places = _side_by_side([np.dtype(each).itemsize * len(table) for each in kinds.values() if each != TEXT])
+        for column, kind in kinds.items():
+            values = table[column].to_numpy().reshape(shape)
+            place = next(places) if kind != TEXT and len(table) else None
+            _write(out, names[column], column, values, dimensions, place, each=table.shape[1])
+
+
+def _side_by_side(sizes: Sequence[int]) -> Iterator[np.ndarray]:
+    """Room of so many bytes each, in one file: as many files as columns could not be open at once."""
+    whole = [-(-size // 8) * 8 for size in sizes]  # a number of 8 bytes begins at a multiple of 8
+    space, start = room((sum(whole),), np.uint8), 0
+    for size, taken in zip(sizes, whole, strict=True):
+        yield space[start : start + size]
+        start += taken
 
 
 def variable_names(columns: Iterable[object]) -> dict[str, str]:
@@ -104,11 +115,30 @@ def variable_names(columns: Iterable[object]) -> dict[str, str]:
     }
 
 
-def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tuple[str, ...], each: int = 1) -> None:
-    """A variable with its unit; text as characters, truth as 0 and 1. Rows of `each` values lie in memory, or in a
+TEXT = "c"
+
+
+def _kind(values: np.ndarray) -> str:
+    """Type of a variable in the file: text as characters, truth as 0 and 1."""
+    if values.dtype.kind not in "fiub":
+        return TEXT
+    return "b" if values.dtype.kind == "b" else "d" if _needs_double(values) else "i"
+
+
+def _write(
+    out: Any,
+    name: str,
+    column: str,
+    values: np.ndarray,
+    dimensions: tuple[str, ...],
+    place: np.ndarray | None = None,
+    each: int = 1,
+) -> None:
+    """A variable with its unit, in bytes of `place` until it is written. Rows of `each` values lie in memory, or in a
     file, beside each other.
     """
-    if values.dtype.kind not in "fiub":
+    kind = _kind(values)
+    if kind == TEXT:
         values = np.char.encode(np.array([text_of_cell(value) for value in values.ravel()]), "utf-8").reshape(
             values.shape
         )
@@ -118,10 +148,9 @@ def _write(out: Any, name: str, column: str, values: np.ndarray, dimensions: tup
         variable = out.createVariable(name, "c", (*dimensions, length))
         variable[:] = values.astype(f"S{width}").view("S1").reshape(*values.shape, width)
     else:
-        kind = "b" if values.dtype.kind == "b" else "d" if _needs_double(values) else "i"
         variable = out.createVariable(name, kind, dimensions)
-        if values.size:
-            variable.data = room(values.shape, variable.data.dtype)
+        if place is not None:
+            variable.data = place.view(variable.data.dtype).reshape(values.shape)
         for some in blocks(len(values), each * values[:1].size):
             variable.data[some] = values[some]
             release()
@@ -169,14 +198,17 @@ def write_ragged(table: RaggedTable, columns: Iterable[Column], file: Path) -> N
             _write_text(out, label, [each.get(label, "").encode() for each in table.labels], ("trial",))
         given = list(columns)
         names = variable_names([name for name, _, _ in given])
-        for k, (column, text, values) in enumerate(given):
+        count, numbers = sum(table.rows), sum(not text for _, text, _ in given)
+        kept = np.memmap(Path(scratch) / "numbers", ">f8", "w+", shape=(numbers, count)) if numbers * count else None
+        rows = iter(np.zeros((numbers, 0)) if kept is None else kept)
+        for column, text, values in given:
             name = names[column]
             if name in out.variables or name in out.dimensions:
                 name = f"{name}_of_row"
             if text:
                 _write_text(out, name, [text_of_cell(v).encode() for part in values for v in part], ("row",), column)
             else:
-                _write_numbers(out, name, column, values, Path(scratch) / f"{k}.bin")
+                _write_numbers(out, name, column, values, next(rows))
 
 
 def _write_text(out: Any, name: str, cells: list[bytes], over: tuple[str], column: str = "") -> None:
@@ -187,12 +219,11 @@ def _write_text(out: Any, name: str, cells: list[bytes], over: tuple[str], colum
     variable.long_name = column or name
 
 
-def _write_numbers(out: Any, name: str, column: str, values: Iterator[Any], scratch: Path) -> None:
-    """A variable whose values lie in a file until they are written."""
-    count = out.dimensions["row"]
+def _write_numbers(out: Any, name: str, column: str, values: Iterator[Any], place: np.ndarray) -> None:
+    """A variable whose values lie in `place`, part of a file, until they are written."""
     variable = out.createVariable(name, "d", ("row",))
-    if count:
-        variable.data = np.memmap(scratch, ">f8", "w+", shape=(count,))
+    if len(place):
+        variable.data = place
     start = 0
     for part in values:
         variable.data[start : start + len(part)] = part

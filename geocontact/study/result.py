@@ -357,6 +357,8 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
         say(one.words)
     for each in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
         listener().fail(f"{each.run.step} of {each.trial.name}: {each.outcome.line if each.outcome else ''}")
+    for each in (each for each in plan.evaluations if each.run.without):
+        listener().fail(f"{each.run.step} of {each.trial.name}: {each.run.without_words}")
     times = [one.seconds for one in states if one.missing]
     if len(times) > 1 and None not in times:
         total = sum(one.missing * (one.seconds or 0.0) for one in states)
@@ -387,13 +389,15 @@ def _looked_at(
     for one in (*earlier, *trials):
         if one.outcome.state not in (DONE, LEFT, WITHOUT):
             listener().fail(f"{one.called(step=bool(earlier))}: {one.outcome.line}")
+    for each in plan.evaluations:
+        if each.run.missing(planned.file.home) is not None and each.outcome is not None:
+            reserve(f"{each.run.step} of {each.trial.name} is left out: {each.outcome.line}")
+        if each.run.without:
+            reserve(f"{each.run.step} of {each.trial.name} is evaluated {each.run.without_words}")
     done = [one for one in trials if one.outcome.state == DONE]
     if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
         count = len(trials) + len(earlier)
         raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
-    for each in plan.evaluations:
-        if each.run.missing(planned.file.home) is not None and each.outcome is not None:
-            reserve(f"{each.run.step} of {each.trial.name} is left out: {each.outcome.line}")
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
     _clean(planned, plan, store, o)

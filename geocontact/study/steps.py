@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path, PurePosixPath
@@ -25,6 +25,8 @@ TAKEN = re.compile(r"\{([A-Za-z0-9_-]+):([^{}:]+)\}")
 """`{STEP:FILE}`."""
 STEP = re.compile(r"\{([A-Za-z0-9_-]+):")
 """The step of it."""
+NAMED = 5
+"""How many evaluations that are not there are named."""
 _Places = dict[Hashable, int]
 """Places of a step's evaluations by what `_key` says of trials."""
 
@@ -47,6 +49,8 @@ class StepRun:
         Places of the evaluations that it takes from in the list of all, by the name of their step.
     needs
         Files without which it is left out, as paths from the study's folder.
+    without
+        Evaluations that lack such a file, and whose trials are not among its own therefore.
     """
 
     step: str
@@ -55,10 +59,17 @@ class StepRun:
     trials: frozenset[int]
     takes: Mapping[str, tuple[int, ...]]
     needs: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
 
     def missing(self, home: Path) -> str | None:
         """The first file that it needs and that is not there."""
         return next((each for each in self.needs if leads_nowhere(home / each)), None)
+
+    @property
+    def without_words(self) -> str:
+        """The first of what it is evaluated without: "without sine of B 1 and 3 more"."""
+        more = f" and {len(self.without) - NAMED} more" if len(self.without) > NAMED else ""
+        return f"without {', '.join(self.without[:NAMED])}{more}" if self.without else ""
 
 
 def runs_of(study: StudyFile) -> list[StepRun]:
@@ -70,14 +81,52 @@ def runs_of(study: StudyFile) -> list[StepRun]:
     }
     found: list[StepRun] = []
     places: dict[str, _Places] = {}
+    lacking: dict[int, StepRun] = {}
     for name in _in_order(study, made):
         step, own = study.all_steps[name], made[name]
         twice = next((each for each, count in Counter(run.trial.name for run in own).items() if count > 1), None)
         if twice is not None:
             raise InputError(study.path, "", f"two trials are {twice!r}", "name what they differ in, as in {trial}")
         places[name] = {_key(k, step, trials): len(found) + at for at, run in enumerate(own) for k in run.trials}
-        found += [replace(run, takes=_takes(study, run, places, trials)) for run in own]
+        for run in own:
+            one = _with_what_is_there(study, run, places, trials, lacking)
+            if one.missing(study.home) is not None or any(k in lacking for some in one.takes.values() for k in some):
+                lacking[len(found)] = one
+            found.append(one)
     return found
+
+
+def _with_what_is_there(
+    study: StudyFile,
+    run: StepRun,
+    places: Mapping[str, _Places],
+    trials: Sequence[TrialRow],
+    lacking: Mapping[int, StepRun],
+) -> StepRun:
+    """An evaluation with what it takes, of the trials whose lists lack nothing; of all where a list is empty.
+
+    Trials are left out whole, so that lists of several steps stay side by side.
+    """
+    whole = replace(run, takes=_takes(study, run, places, trials))
+    absent = [lacking[k] for some in whole.takes.values() for k in some if k in lacking]
+    rest = sorted(run.trials.difference(*(each.trials for each in absent)))
+    there = all(_places_of(study, name, rest, places, trials) for name in whole.takes)
+    if not absent or not rest or not there or {each.step for each in absent} & _in_words(run):
+        return whole
+    less = _run(study, run.step, study.all_steps[run.step], rest, [trials[k] for k in rest])
+    less = replace(less, without=tuple(f"{each.step} of {each.trial.name}" for each in absent))
+    return replace(less, takes=_takes(study, less, places, trials))
+
+
+def _in_words(run: StepRun) -> set[str]:
+    """Steps that an evaluation takes one file from: `{STEP:FILE}` is no item of a list there."""
+    return {
+        name
+        for value in run.trial.options.values()
+        for text in _texts(value)
+        if isinstance(value, str) or not TAKEN.fullmatch(text)
+        for name in STEP.findall(text)
+    }
 
 
 def taken_by(run: StepRun) -> dict[str, str]:
@@ -166,10 +215,22 @@ def _run(study: StudyFile, name: str, step: StepSettings, numbers: Sequence[int]
         raise InputError(study.path, f"[sweep] {twice}", "is in [options] too", "give it once")
     words = [str(value) for each, value in factors.items() if step.per is None or each in step.per]
     title = " ".join(words) or ("all" if step.per is not None else study.path.stem)
-    needs = tuple(str(filled(study, "needs", each, given, place)) for each in step.needs)
+    needs = _needs(study, name, step, given)
     return StepRun(
         name, step.analysis, CohortTrial(title, factors, {**options, **swept}), frozenset(numbers), {}, needs
     )
+
+
+def _needs(study: StudyFile, name: str, step: StepSettings, given: Mapping[str, Value | Several]) -> tuple[str, ...]:
+    """Files without which a step is left out; InputError for those of other steps, which are never there before."""
+    place = "" if name == study.own_name else f"[steps.{name}]"
+    made = next((found[0] for each in step.needs if (found := TAKEN.search(each))), None)
+    if made is not None:
+        what = f"{made} is made by the study itself"
+        raise InputError(
+            study.path, f"{place} needs".strip(), what, "name files that are given; what lacks input waits"
+        )
+    return tuple(str(filled(study, "needs", each, given, place)) for each in step.needs)
 
 
 def _shared(values: Sequence[Value]) -> Value | Several:
@@ -184,12 +245,20 @@ def _takes(
     """Evaluations of other steps that an evaluation takes from."""
     found = {}
     for name, option in taken_by(run).items():
-        these = {places[name].get(_key(k, study.steps[name], trials)) for k in run.trials} - {None}
+        these = _places_of(study, name, run.trials, places, trials)
         if not these:
             place = f"{_place(study, run.step)} {option}"
             raise InputError(study.path, place, f"{name} is not evaluated for {run.trial.name}", "see its `where`")
-        found[name] = tuple(sorted(k for k in these if k is not None))
+        found[name] = tuple(sorted(these))
     return found
+
+
+def _places_of(
+    study: StudyFile, name: str, numbers: Iterable[int], places: Mapping[str, _Places], trials: Sequence[TrialRow]
+) -> set[int]:
+    """Places of a step's evaluations of some trials."""
+    found = (places[name].get(_key(k, study.steps[name], trials)) for k in numbers)
+    return {k for k in found if k is not None}
 
 
 def _key(trial: int, step: StepSettings, trials: Sequence[TrialRow]) -> Hashable:

@@ -175,12 +175,15 @@ def filled(
         known = factors.get(each)
         if known is None:
             raise InputError(
-                study.path, f"{where} {name}", f"no trial has {{{each}}}", f"names are {', '.join(factors) or 'none'}"
+                study.path,
+                f"{where} {name}".strip(),
+                f"no trial has {{{each}}}",
+                f"names are {', '.join(factors) or 'none'}",
             )
         if isinstance(known, Several):
             what = f"{{{each}}} stands for {len(known.values)} values"
             remedy = f'write it in a list, ["{{{each}}}"], or choose trials by `where`'
-            raise InputError(study.path, f"{where} {name}", what, remedy)
+            raise InputError(study.path, f"{where} {name}".strip(), what, remedy)
     alone = NAME.fullmatch(value)
     return factors[alone[1]] if alone else NAME.sub(lambda found: str(factors[found[1]]), value)
 

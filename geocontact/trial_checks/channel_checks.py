@@ -67,8 +67,11 @@ def breadths(trial: TrialInputs) -> Iterator[Contradiction]:
                 one, other = middle(seen, ones, side or "right"), middle(seen, others, side or "left")
                 if one is None or other is None:
                     continue
-                apart = float(np.nanmedian(np.linalg.norm(one - other, axis=1)))
-                if not (np.isnan(apart) or least <= apart <= most):
+                both = np.linalg.norm(one - other, axis=1)
+                if np.isnan(both).all():  # never seen together
+                    continue
+                apart = float(np.nanmedian(both))
+                if not least <= apart <= most:
                     which = f"{side} foot" if side else part
                     off.append(f"{which} {1e3 * apart:.3g} mm")
         if off:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.io import netcdf_file
 from scipy.signal import butter, sosfiltfilt
 
 from geocontact.data import frame_blocks
@@ -17,6 +18,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import Growing, blocks, parts, room, worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.identify.signals.filters import as_opensim
+from geocontact.io.results import RaggedTable, write_netcdf, write_ragged
 from geocontact.io.text import file_preflight, results
 
 PRESSURE = np.random.default_rng(58).uniform(0.0, 2e4, (101, 4, 3))
@@ -83,6 +85,45 @@ def test_a_full_disk_is_said_before_anything_is_computed(monkeypatch: pytest.Mon
     monkeypatch.setattr(frame_blocks.os, "posix_fallocate", full, raising=False)
     with pytest.raises(InputError, match=r"cannot hold 8e-07 GB .* \(No space left on device\); name another folder"):
         room((10, 10))
+
+
+def test_another_folder_is_no_remedy_for_open_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    def many(*_: object) -> None:
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    monkeypatch.setattr(frame_blocks.os, "posix_fallocate", many, raising=False)
+    with pytest.raises(InputError, match=r"\(Too many open files\); allow more open files \(ulimit -n\)"):
+        room((10, 10))
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").is_dir(), reason="open files are counted in /proc")
+def test_a_netcdf_file_of_more_columns_than_files_may_be_open(tmp_path: Path) -> None:
+    """Of a table and of several that are joined, each beyond a part; read again they are the same."""
+    import resource
+
+    values = np.random.default_rng(8).normal(size=(60, 90))
+    table = pd.DataFrame(values, columns=[f"c{k} [N]" for k in range(90)])
+    table["count"], table["there"], table["side"] = np.arange(60), np.arange(60) % 2 == 0, "left"
+    table.insert(0, "time [s]", np.arange(60) / 100.0)
+    joined = RaggedTable("t", [{"subject": "A"}, {"subject": "B"}], [40, 20])
+    columns = [(str(name), False, iter([table[name][:40], table[name][40:]])) for name in table.columns[:91]]
+    given = resource.getrlimit(resource.RLIMIT_NOFILE)
+    taken = {int(each.name) for each in Path("/proc/self/fd").iterdir()}
+    most = [k for k in range(1000) if k not in taken][20]  # numbers of files below it: twenty are free
+    resource.setrlimit(resource.RLIMIT_NOFILE, (most, given[1]))
+    try:
+        write_netcdf(table, tmp_path / "t.nc", {})
+        write_ragged(joined, columns, tmp_path / "joined.nc")
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, given)
+    for name in ("t.nc", "joined.nc"):
+        with netcdf_file(str(tmp_path / name), mmap=False) as found:
+            for k in range(90):
+                np.testing.assert_array_equal(found.variables[f"c{k}"][:], values[:, k])
+            if name == "t.nc":
+                np.testing.assert_array_equal(found.variables["count"][:], np.arange(60))
+                np.testing.assert_array_equal(found.variables["there"][:], np.arange(60) % 2 == 0)
+                assert found.variables["side"][0].tobytes() == b"left"
 
 
 def test_lines_of_a_file_are_those_of_its_bytes(monkeypatch: pytest.MonkeyPatch) -> None:

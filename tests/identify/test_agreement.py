@@ -8,6 +8,7 @@ import pytest
 from geocontact.identify.signals.agreement import (
     agreement,
     by_phase,
+    gain_off,
     over_stretches,
     overlap,
     per_phase,
@@ -145,3 +146,11 @@ def test_phases_that_are_named_are_taken_together_and_else_parts() -> None:
     parts = by_phase(model, curve(), STEP, parts=4)
     assert list(parts) == ["all", "0-25 %", "25-50 %", "50-75 %", "75-100 %"]
     assert [each.mae for each in parts.values()] == pytest.approx([0.25, 1.0, 0.0, 0.0, 0.0])
+
+
+def test_an_offset_is_no_gain() -> None:
+    """A half sine of 20 N that was recorded 6 N higher is fitted by 1.38 times it: a constant takes all there."""
+    force = 20.0 * np.sin(np.pi * np.arange(101) / 100.0)
+    assert gain_off(force, 1.35 * force) == pytest.approx(1.35)
+    assert float(force @ (force + 6.0) / (force @ force)) == pytest.approx(1.38, abs=0.01)
+    assert gain_off(force, force + 6.0) == 1.0

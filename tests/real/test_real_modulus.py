@@ -42,6 +42,8 @@ def test_modulus_of_the_instrumented_knee(og1: Call) -> None:
     assert m["compartments"]["lateral"]["E_star_Pa"] == pytest.approx(1.76e6, rel=0.02)
     assert m["identifiability"]["E, nu"]["verdict"] == "one number"
     assert any("intervals are approximate" in line for line in og1.warnings)
+    said = (og1.folder / "run.json").read_text(encoding="utf-8")
+    assert "R² is" in said and "the area grows with the threshold" not in said, "4 mm reach the edges of the insert"
 
 
 def test_no_reading_and_no_threshold_gives_the_papers_modulus(og1: Call) -> None:

@@ -211,6 +211,39 @@ def test_a_link_that_nobody_gave_is_left_out_and_named_before_anything_runs(tmp_
     assert new(done) == [0, 0, 2, 0, 1]
 
 
+def test_what_is_over_several_runs_on_those_that_are_there(tmp_path: Path, scheduler: str) -> None:
+    """Without the trial whose file nobody gave, in sums over trials of a step and in those over all; all is named."""
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = file.read_text(encoding="utf-8")
+    need = '[steps.sum]\nneeds = ["given_{subject}_{trial}.dat"]\n'
+    file.write_text(text.replace("[steps.sum]\n", need), encoding="utf-8")
+    for name in ("A_1", "A_2", "B_2"):
+        (tmp_path / f"given_{name}.dat").write_text("", encoding="utf-8")
+    planned = cohort(file, out, scheduler, "--dry-run")
+    assert planned.code == 0 and "all of all: without sum of B 1" in planned.err
+    done = cohort(file, out, scheduler)
+    assert done.code == 0, done.err
+    assert "all of all is evaluated without sum of B 1" in done.err
+    assert "tests_study_chained_add of B is evaluated without sine of B 1" in done.err
+    found = states(out)
+    assert found["state"]["all", "all"] == found["state"]["tests_study_chained_add", "B"] == "done"
+    assert found["state"]["sum", "B 1"] == found["state"]["sine", "B 1"] == "without input"
+    total = (out / found["folder"]["all", "all"] / "total.txt").read_text(encoding="utf-8")
+    assert float(total) == (10 + 1) + (20 + 1) + (40 + 2)
+    (tmp_path / "given_B_1.dat").write_text("", encoding="utf-8")
+    done = cohort(file, out, scheduler)
+    assert "without" not in done.err and new(done) == [0, 1, 1, 1, 1]
+
+
+def test_what_is_missing_is_named_where_nothing_can_be_evaluated(tmp_path: Path, scheduler: str) -> None:
+    file, out = chain(tmp_path, NUMBERS), tmp_path / "out"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("[steps.offset]\n", '[steps.offset]\nneeds = ["{subject}_gvien.dat"]\n'))
+    done = cohort(file, out, scheduler)
+    assert done.code == 2 and "none of the" in done.err
+    assert "offset of A is left out: needs A_gvien.dat, which is not there" in done.err
+
+
 def test_what_failed_is_redone_after_a_run_that_left_it(tmp_path: Path, scheduler: str) -> None:
     file, out = chain(tmp_path, {**NUMBERS, "A_1": "wrong", "B_1": "wrong"}), tmp_path / "out"
     assert cohort(file, out, scheduler).code == 2
@@ -297,6 +330,17 @@ def test_pages_and_figures_can_be_left_out(tmp_path: Path, scheduler: str) -> No
             '{ file = "{file}" }\nper = []',
             '[steps.sine.options] file: {file} stands for 4 values; write it in a list, ["{file}"], or choose trials',
         ),
+        (
+            "[steps.sum]\n",
+            '[steps.sum]\nneeds = ["{sujet}.dat"]\n',
+            "[steps.sum] needs: no trial has {sujet}; names are",
+        ),
+        (
+            "[steps.sum]\n",
+            '[steps.sum]\nneeds = ["{offset:total.txt}"]\n',
+            "[steps.sum] needs: {offset:total.txt} is ma",
+        ),
+        ('per = ["subject"]\n\n', 'per = ["subject"]\nneeds = ["{sujet}.dat"]\n\n', "study.toml needs: no trial has"),
         ("[steps.all]", "[steps.tests_study_chained_add]", "has the name of the study's own analysis"),
         ("[steps.all]", '[steps."../all"]', "'../all' cannot be that of a file"),
         ('trial = ["still"]', 'subject = ["A"], trial = ["still"]', "offset is not evaluated for B 1; see its `where`"),

@@ -6,6 +6,7 @@ stand still during stance and swing by a smooth polynomial, and plates whose for
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -16,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.wrench import Wrench
+from geocontact.trial_checks.channel_checks import breadths
 from geocontact.trial_checks.recorded import FootPlate, TrialInputs
 from geocontact.trial_checks.table import CHECKS, contradictions
 from tests.trial_checks import modelled
@@ -390,6 +392,17 @@ def test_what_nearly_trips_is_silent(change: Callable[[TrialInputs], TrialInputs
 
 def test_every_check_has_an_input_that_trips_it() -> None:
     assert {check for check, _ in DAMAGED.values()} == {check.name for check in CHECKS}
+
+
+def test_landmarks_never_seen_together_have_no_breadth() -> None:
+    """Nor a line of numpy's: the right one is seen in the first half, the left one in the second."""
+    seen = marked(STANDING_STILL, walks=False)
+    places, half = seen.positions.copy(), len(seen.time) // 2
+    for name in ("RASI", "LASI"):
+        places[slice(half, None) if name == "RASI" else slice(half), seen.names.index(name)] = np.nan
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not list(breadths(TrialInputs(replace(seen, positions=places))))
 
 
 def test_same_recording_twice_is_refused() -> None:

@@ -315,7 +315,7 @@ def shift_table(cuts: list[Cut]) -> pd.DataFrame:
 
 LITTLE = 500.0  # N; a knee under body weight bears more at some time
 UNLOADED = 0.4  # of the largest total; in swing a knee bears less
-LIGHT = 1.2  # weights; walking 2.6 (Kutzner, there), standing on both legs 1.1
+LIGHT = 1.05  # weights; walking 2.6, standing on both legs 1.07 (Kutzner, there)
 MUCH = 5000.0  # N; five times 100 kg, down stairs it is 3.5 times the weight (Kutzner, J Biomech 43, 2010)
 HELD, CHANGE = 8, 0.05  # samples of one value, and the change of another cell meanwhile, of the largest total
 CYCLES, DRIFTS = 3, 0.1  # from which least forces are compared, and by how much of the largest total they differ

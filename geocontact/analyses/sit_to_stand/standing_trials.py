@@ -37,6 +37,7 @@ from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
 from geocontact.data.wrench import Wrench
 from geocontact.io.recordings.standing_study import StandingTrialFiles, read_standing_study
+from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import COORDINATES, FOOT_PARAMETERS, SOUGHT, SOUGHT_WORN, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
@@ -99,16 +100,33 @@ def _warn_of_copies(trials: Sequence[StandingTrialFiles]) -> None:
         elif ours[0] != theirs[0]:
             for role in ("rates", "torques", "motors", "strap", "strap_shank", "strap_pelvis"):
                 own, others = (_contents(getattr(each, role)) for each in (one, other))
-                if own & others:
+                if any(_at_one_time(one, other, own[name]) for name in own.keys() & others.keys()):
                     reserve(
                         f"{other.name}: its {role} is that of {one.name}; name the file of each trial's own recording"
                     )
 
 
-def _contents(files: Path | Sequence[Path] | None) -> set[str]:
-    """Digests of files that are there."""
+def _contents(files: Path | Sequence[Path] | None) -> dict[str, Path]:
+    """Files that are there by their digest."""
     each = [] if files is None else [files] if isinstance(files, Path) else files
-    return {digest(file) for file in each if file.is_file()}
+    return {digest(file): file for file in each if file.is_file()}
+
+
+def _at_one_time(one: StandingTrialFiles, other: StandingTrialFiles, file: Path) -> bool:
+    """Whether a file of two trials cannot be of both: they are at one time, or it has not the times of both of them
+    though their clocks start alike. A session on one clock may have one file of all its trials.
+    """
+    clocks = [read_table(each.coordinates).time for each in (one, other)]
+    used = [time[_within(each, time)] for each, time in zip((one, other), clocks, strict=True)]
+    if not all(map(len, used)):
+        return False  # a trial of no samples is refused later
+    starts, ends = [each[0] for each in used], [each[-1] for each in used]
+    if max(starts) < min(ends):
+        return True
+    time = read_table(file).time
+    step = float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+    alike = abs(float(clocks[0][0] - clocks[1][0])) <= step
+    return alike and not (time[0] <= min(starts) + step and max(ends) - step <= time[-1])
 
 
 def _known(

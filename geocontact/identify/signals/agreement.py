@@ -125,18 +125,21 @@ def likely_cause(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t
 
 GAIN, TAKEN = 0.2, 0.8
 """By how much sizes of two curves of one course differ that are spoken of, and part of the squared difference that one
-factor takes away then."""
+factor takes away then, also of what a constant leaves."""
 
 
 def gain_off(model: Float[np.ndarray, " t"], measured: Float[np.ndarray, " t"]) -> float:
-    """How many times the model a recording is where one factor, and little else, is between them; 1 where not so."""
+    """How many times the model a recording is where one factor is between them, and neither a constant nor much else;
+    1 where not so.
+    """
     there = np.isfinite(model) & np.isfinite(measured)
     model, measured = model[there], measured[there]
     if len(model) < FEWEST or not model.any():
         return 1.0
     gain = float(model @ measured / (model @ model))
-    stays, was = float(np.sum((measured - gain * model) ** 2)), float(np.sum((measured - model) ** 2))
-    return gain if gain > 0.0 and max(gain, 1.0 / gain) > 1.0 + GAIN and stays < (1.0 - TAKEN) * was else 1.0
+    stays, off = float(np.sum((measured - gain * model) ** 2)), measured - model
+    least = min(float(np.sum(off**2)), float(np.sum((off - off.mean()) ** 2)))
+    return gain if gain > 0.0 and max(gain, 1.0 / gain) > 1.0 + GAIN and stays < (1.0 - TAKEN) * least else 1.0
 
 
 def per_phase(

@@ -231,6 +231,7 @@ RIGHT: dict[str, Attempt] = {
     "shoulder": raised(mass=82.0),
     "shoulder: 82 kg and 1.75 m": raised(mass=82.0, height=1.75),
     "cells": cells(60.0),
+    "cells: who stands, 1.07 weights": cells(127.0),
     "events": struck(0.0, 1.0, 2.1, 3.0),
 }
 KNOWN = "T10 is taken to lie|no `person`"

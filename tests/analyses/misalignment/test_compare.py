@@ -11,6 +11,9 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.misalignment.compare.pairs import Pair
+from geocontact.analyses.misalignment.compare.result import goodness_of
+from geocontact.identify.signals.agreement import agreement
 from tests.analyses.misalignment.trials import STROKE, changed, free, locked, quietly, recorded
 
 TRUTH = {"k_N_per_m": 222.43, "x_mm": 48.0, "y_mm": 59.0, "l_mm": 169.0, "z_mm": 127.0}
@@ -83,3 +86,19 @@ def test_comparisons_that_cannot_be_are_refused(tmp_path: Path, made: Path) -> N
     for recording, options, said in cases:
         with pytest.raises(gc.InputError, match=said):
             compare(recording, **options)
+
+
+def test_factors_that_differ_are_no_gain_of_all_trials() -> None:
+    """1.35 in both trials is one gain; 1.35 and 0.7 have no cause in common, nor have 1.35 and 1.8."""
+    time = 0.01 * np.arange(101)
+    force = 20.0 * np.sin(2.0 * np.pi * time)
+
+    def said(*gains: float) -> bool:
+        pairs = [
+            Pair(f"t{k}", "force", time, time, gain * force, force, agreement(force, gain * force, 0.01))
+            for k, gain in enumerate(gains)
+        ]
+        return any("times the model's in every trial" in each.what for each in goodness_of(pairs).doubts)
+
+    assert said(1.35, 1.35) and said(1.35, 1.5)
+    assert not said(1.35, 0.7) and not said(1.35, 1.8)

@@ -8,9 +8,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from geocontact.analyses.modulus.goodness import radius_by_areas
 from geocontact.analyses.modulus.identified import describe
 from geocontact.analyses.modulus.result import ModulusResult, modulus
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.elastic_modulus.area_force import ThresholdAreas
 from tests.analyses.modulus.synthetic_step import LBF, SHARE, areas, forces, written
 from tests.identify.synthetic_contact import DURATION, TRUE, synthetic_areas
 
@@ -145,6 +147,19 @@ def test_radius_over_flexion(tmp_path: Path) -> None:
     assert result.modulus == pytest.approx(2.0 * TRUE, rel=1e-5), "twice the radius takes twice the modulus"
     with pytest.raises(InputError, match=r"flexion from -27\.5 to 0\.0; extend `profile`"):
         found(tmp_path, profile=profile, flexion=motion, map="flexion=knee")
+
+
+def test_an_area_that_ends_at_an_edge_shows_no_radius() -> None:
+    """A paraboloid's area grows alike with every threshold; medially in trial og1 by ever less; two show nothing."""
+    thresholds = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+
+    def shown(grown: list[float]) -> float:
+        area = 1e-6 * 2.0 * np.pi * np.cumsum([[20.0, *grown]] * 3, axis=1)
+        count = len(grown) + 1
+        return radius_by_areas(ThresholdAreas(np.arange(3.0), 1e-3 * thresholds[:count], area, np.full(3, 0.037), 0.06))
+
+    assert shown([37.0, 35.0, 39.0, 37.0]) == pytest.approx(0.037, rel=0.03)
+    assert np.isnan(shown([52.0, 15.4, 4.0, 1.9])) and np.isnan(shown([37.0]))
 
 
 def test_forces_that_a_constant_would_meet_better_are_said(tmp_path: Path) -> None:

@@ -106,6 +106,10 @@ def run(both: Both, o: CompareOptions) -> CompareResult:
     return CompareResult(options=o, pairs=pairs)
 
 
+ALIKE = 1.25
+"""Ratio of the gains of trials below which they may be one."""
+
+
 def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
     """Every channel of every trial against what was measured."""
     doubts: list[Doubt] = []
@@ -116,7 +120,7 @@ def goodness_of(pairs: Sequence[Pair]) -> GoodnessOfFit:
         found = list(of_many_r2(channel, {p.trial: p.agreement.r2 for p in mine}))
         doubts += [replace(each, what=f"{each.what}{asked}") for each in found]
         gains = [gain_off(p.model, p.measured) for p in mine]
-        if mine and not found and 1.0 not in gains:
+        if mine and not found and 1.0 not in gains and max(gains) < ALIKE * min(gains):
             least, most = min(gains), max(gains)
             size = f"{least:.2f}" if most - least < 0.005 else f"{least:.2f} to {most:.2f}"
             what = f"{channel}: recorded values are {size} times the model's in every trial, and little else differs"
