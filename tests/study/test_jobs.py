@@ -101,7 +101,7 @@ def test_slurm_says_why_it_takes_no_job(tmp_path: Path, slurm: dict[str, str]) -
 
 
 SUBMITS = """#!/bin/bash
-file=$1; [ -n "$file" ] || {{ file={folder}/piped.sh; cat > $file; }}
+file=$1; [ -n "$file" ] || {{ file={folder}/piped.$$; cat > $file; }}
 cp "$file" {folder}/script.$$; echo $$ >> {folder}/ids
 setsid bash {folder}/script.$$ > {folder}/said.$$ 2>&1 &
 echo $! > {folder}/pid.$$
