@@ -79,7 +79,7 @@ def whole_stances(plate: PlateStance) -> list[tuple[float, float]]:
 
 
 def covered_stances(plate: PlateStance, start: float, stop: float) -> list[tuple[float, float]]:
-    """Of `whole_stances` those that markers between two times [s] see from before touch-down to after toe-off."""
+    """Those of `whole_stances` that markers between two times [s] see from before touch-down to after toe-off."""
     return [(down, off) for down, off in whole_stances(plate) if down >= start + LATE and off <= stop]
 
 

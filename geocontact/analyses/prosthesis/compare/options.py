@@ -103,7 +103,7 @@ class ProsthesisCompareOptions(Options):
 
     @property
     def place(self) -> str:
-        """Of the stances in `source`, for errors."""
+        """Where `source` describes the stances, for errors."""
         return "[[trials]]" if self.study else "`runs`"
 
     def refuse_impossible(self) -> None:
