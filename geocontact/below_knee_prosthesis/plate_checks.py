@@ -5,13 +5,17 @@ The clock is told by when the sole is on the floor beside when the plate is load
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, at_times, longest_stance
+from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.data.errors import InputError
 from geocontact.geometry.shapes import HalfSpace
+from geocontact.identify.signals.cycles import loaded_spans
 from geocontact.loads.ground import Ground
 from geocontact.loads.sphere_set import SphereSet
 
@@ -67,6 +71,25 @@ def clock_offset(
         return float(np.nan_to_num(early if np.isnan(late) else late))
     early, late = seen[0] - float(time[first]), seen[1] - float(time[last])
     return 0.0 if early * late <= 0.0 else float(np.sign(early) * min(abs(early), abs(late)))
+
+
+def whole_stances(plate: PlateStance) -> list[tuple[float, float]]:
+    """Touch-downs and toe-offs of all whole stances on a plate [s]."""
+    return [(float(each.start), float(each.end)) for each in loaded_spans(plate.time, plate.force[:, 1], GATE)]
+
+
+def covered_stances(plate: PlateStance, start: float, stop: float) -> list[tuple[float, float]]:
+    """Those of `whole_stances` that markers between two times [s] see from before touch-down to after toe-off."""
+    return [(down, off) for down, off in whole_stances(plate) if down >= start + LATE and off <= stop]
+
+
+def part_of(plate: PlateStance, first: float, last: float) -> PlateStance:
+    """A plate from the whole stance before a touch-down [s] to the one after a toe-off [s]: without either."""
+    spans = whole_stances(plate)
+    begin = max((off for _, off in spans if off <= first), default=-np.inf)
+    end = min((down for down, _ in spans if down >= last), default=np.inf)
+    on = (plate.time >= begin) & (plate.time <= end)
+    return replace(plate, time=plate.time[on], force=plate.force[on], centre=plate.centre[on])
 
 
 def require_weight(plate: PlateStance, weight: float, option: str = "`plate`") -> None:

@@ -26,6 +26,7 @@ from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_i
 from geocontact.below_knee_prosthesis.plate_checks import (
     LATE,
     lowest_sphere,
+    part_of,
     require_covering,
     require_near_heel,
     require_one_clock,
@@ -128,6 +129,7 @@ def fitted_walk(
     other: PlateStance,
     *,
     plate: PlateStance | None = None,
+    stance: tuple[float, float] | None = None,
     moving: MarkerTrajectories | None = None,
     joints: ModelLeg | None = None,
     ground: HalfSpace | Stairs = FLOOR,
@@ -147,6 +149,8 @@ def fitted_walk(
         [m].
     other, plate
         Plates under the intact foot, whose force stands for the other leg, and under the prosthetic one, where known.
+    stance
+        Touch-down and toe-off on `plate` by which it is tested [s]; by default of the longest stance.
     moving
         Markers of a functional trial, which tells the hip's centre better than the regression.
     joints
@@ -177,7 +181,7 @@ def fitted_walk(
     require_weight(other, person.mass * GRAVITY, "`other_plate`")
     require_covering(other, fit.motion.time, "both need one clock; cut with `time`")
     if plate is not None:
-        _require_own(plate, fit.motion, foot, ground)
+        _require_own(plate, fit.motion, foot, ground, stance)
     cluster = SeenFoot(seen.time, keel_poses(seen, leg, seen.time, FOOT_CUTOFF, gap_limit))
     push = Push(other.time, other.force)
     return Walk(leg, fit, ground, foot, fulcrum, push, plate, cluster, seen, hip, cutoff, gap_limit, around)
@@ -203,12 +207,19 @@ def _require_fit(seen: MarkerTrajectories, fit: Walked) -> None:
 
 
 def _require_own(
-    plate: PlateStance, motion: LegMotion, foot: VariableStiffnessFoot, ground: HalfSpace | Stairs
+    plate: PlateStance,
+    motion: LegMotion,
+    foot: VariableStiffnessFoot,
+    ground: HalfSpace | Stairs,
+    stance: tuple[float, float] | None,
 ) -> None:
-    """InputError where it is not the prosthetic foot that stands on the plate."""
+    """InputError where it is not the prosthetic foot that stands on the plate, by a stance or the longest one [s].
+
+    Clocks are compared from the middle of the swing before to the middle of the one after where a stance is given.
+    """
     leg = motion.leg
     require_weight(plate, leg.person.mass * GRAVITY)
-    span = longest_stance(plate.time, plate.force[:, 1])
+    span = stance or longest_stance(plate.time, plate.force[:, 1])
     if span is None:
         what = f"{plate.name} carries no whole stance above {GATE:g} N"
         raise InputError(plate.source, "`plate`", what, "give another plate")
@@ -219,7 +230,13 @@ def _require_own(
         raise InputError(plate.source, "`plate`", f"{what} {stop:.2f} s", remedy)
     keel = recorded_tree(leg).poses(motion.values)["shank"] * RigidTransform.from_components(leg.keel, leg.turn)
     height = lowest_sphere(keel, foot.sole.spheres, ground)
-    require_one_clock(plate, motion.time, height)
+    if stance is None:
+        require_one_clock(plate, motion.time, height)
+    else:
+        own = part_of(plate, *stance)
+        begin, end = 0.5 * (own.time[0] + stance[0]), 0.5 * (own.time[-1] + stance[1])
+        near = (motion.time >= begin) & (motion.time <= end)
+        require_one_clock(own, motion.time[near], height[near])
     require_near_heel(plate, keel, motion.time)
 
 

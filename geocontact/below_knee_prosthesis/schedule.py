@@ -2,8 +2,8 @@
 
 The fulcrum cannot move under load, so that it has the swing before a stance for every move, and stays through the
 stance. A schedule by stride or by walking speed moves it from toe-off on; one by time or by phase of gait when it says,
-which must be in swing. The walking speed is that of the pelvis over the swing before: no later one is known to a
-controller then.
+which must be in swing. The walking speed is that of the pelvis from one toe-off to the next, from which the fulcrum
+moves: no later one is known to a controller then. Before the first stance none is known, and the first place holds.
 """
 
 from __future__ import annotations
@@ -77,7 +77,8 @@ class Stride:
     stance
         Touch-down and toe-off [s].
     speed
-        Of the pelvis forward over the swing before [m/s].
+        Of the pelvis forward over the stride before, up to the toe-off from which the fulcrum moves; of the second
+        stride from the recording's beginning on; NaN of the first [m/s].
     place
         Of the fulcrum in the stance.
     moves
@@ -101,14 +102,15 @@ def strides_by(
     phases of a stride that is not known.
     """
     swings = [float(motion.time[0]), *(off for _, off in stances[:-1])]
-    speeds = [_speed(motion, start, down) for start, (down, _) in zip(swings, stances, strict=True)]
+    speeds = [np.nan, *(_speed(motion, start, stop) for start, stop in pairwise(swings))]
     if schedule.by in ("time", "phase"):
         commands = _timed(schedule, stances)
         _require_in_swing(commands, stances)
         return tuple(_after_commands(k, swings[k], stances[k], speeds[k], commands) for k in range(len(stances)))
     found: list[Stride] = []
     for k, (swing, stance, speed) in enumerate(zip(swings, stances, speeds, strict=True)):
-        place = schedule.at(k + 1.0 if schedule.by == "stride" else speed)
+        where = k + 1.0 if schedule.by == "stride" else speed
+        place = schedule.places[0] if np.isnan(where) else schedule.at(where)
         if place is None:
             at = f"stride {k + 1}" if schedule.by == "stride" else f"stride {k + 1}, walked at {speed:.2f} m/s"
             raise ValueError(f"the schedule begins later than {at}")
@@ -163,6 +165,16 @@ def _after_commands(
         if when >= swing and abs(place.fulcrum - before.fulcrum) > NONE
     ]
     return Stride(k + 1, swing, stance, speed, known[-1][1], tuple(moves))
+
+
+def never_reached(schedule: FulcrumSchedule, strides: Sequence[Stride]) -> tuple[ScheduledPlace, ...]:
+    """Places of the schedule that no stride comes to; by time those from the last touch-down on."""
+    if schedule.by == "phase":
+        return ()
+    if schedule.by == "time":
+        return tuple(each for each in schedule.places if each.start > strides[-1].stance[0])
+    reached = [stride.place for stride in strides]
+    return tuple(each for each in schedule.places if each not in reached)
 
 
 def fastest(strides: Sequence[Stride]) -> tuple[Stride, FulcrumMove] | None:

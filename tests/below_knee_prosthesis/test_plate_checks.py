@@ -9,11 +9,14 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.below_knee_prosthesis.evaluation import PlateStance
 from geocontact.below_knee_prosthesis.plate_checks import (
     clock_offset,
+    covered_stances,
+    part_of,
     require_covering,
     require_near_heel,
     require_one_clock,
     require_under_foot,
     require_weight,
+    whole_stances,
 )
 from geocontact.data.errors import InputError
 
@@ -75,3 +78,16 @@ def test_a_plate_is_recorded_as_long_as_the_markers() -> None:
     for time in ([-0.03, 0.9], [0.1, 1.02]):
         with pytest.raises(InputError, match="both need one clock"):
             require_covering(plate(), np.array(time))
+
+
+def test_a_stance_has_its_part_of_the_plate() -> None:
+    """Markers see the three in the middle of five stances: each is alone in its part, though others are longer."""
+    time, stances = np.arange(0.0, 6.0, 0.001), [(0.1, 0.9), (1.3, 1.95), (2.5, 3.35), (3.8, 4.45), (4.9, 5.7)]
+    loads = [800.0 * np.sin(np.pi * np.clip((time - down) / (off - down), 0.0, 1.0)) for down, off in stances]
+    force = np.column_stack([0.0 * time, np.sum(loads, axis=0), 0.0 * time])
+    seen = PlateStance(time, force, 0.0 * force)
+    covered = covered_stances(seen, 1.1, 4.7)
+    assert np.array(covered) == pytest.approx(np.array(stances[1:4]), abs=0.01)
+    for stance in covered:
+        part = part_of(seen, *stance)
+        assert whole_stances(part) == [pytest.approx(stance, abs=1e-9)]

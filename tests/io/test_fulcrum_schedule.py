@@ -33,6 +33,8 @@ def test_read(tmp_path: Path) -> None:
         ("stride [-]\n1\n", "write one of stride"),
         ("stride [-],setting\n2,low\n1,high\n", "does not rise"),
         ("stride [-],setting\n1.5,low\n", "no count"),
+        ("stride [-],setting\n0,low\n", "no count"),
+        ("stride [-],setting\n-3,low\n1,high\n", "no count"),
         ("phase [%],setting\n110,low\n", "not 0 to below 100 %"),
         ("stride [-],setting\none,low\n", "is not a finite number"),
     ],

@@ -131,6 +131,8 @@ def read_foot(file: Path) -> FootFile:
     places = {f"setting {setting}": number_of(place) for setting, place in described.settings.items()}
     origin = _origin(described.keel, keel) | places | under.origin
     moved = described.actuator
+    if moved is not None:
+        origin["actuator speed"] = number_of(moved.speed)
     record = FootRecord(str(name), under.below, settings, origin, None if moved is None else moved.speed.value)
     return FootFile(VariableStiffnessFoot(keel, under.sole, under.law, record), described, known)
 

@@ -89,7 +89,8 @@ def _lines(foot: VariableStiffnessFoot) -> Iterator[str]:
         known = foot.record.origin.get(f"setting {name}", Number(place, "option"))
         yield f"{key(name)} = {quantity(replace(known, value=place), 'm')}"
     if foot.record.actuator is not None:
-        yield f"\n[actuator]\nspeed = {quantity(Number(foot.record.actuator, 'option'), 'm/s')}"
+        known = foot.record.origin.get("actuator speed", Number(foot.record.actuator, "option"))
+        yield f"\n[actuator]\nspeed = {quantity(replace(known, value=foot.record.actuator), 'm/s')}"
     yield from _spheres(foot, numbers) if foot.sole.foam is None else _foam(foot.sole.foam, numbers)
 
 

@@ -124,7 +124,7 @@ class Knob:
         """Hip and knee torques are those of the present foot with angles kept, and of the tracking.
 
         What drives the motion, `RecordedLeg.driven`, are the first: at the hip of the shipped stance within 5 N m root
-        mean square over its first 0.1 s, and 2 N m after.
+        mean square over its first 0.1 s, and 2 N m at its frames after.
         """
         moved, kept = self.other_feet(maps, task).moved(), with_angles_kept(maps[-1], task).leg_torques
         found = []

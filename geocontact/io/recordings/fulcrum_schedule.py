@@ -55,7 +55,7 @@ def read_fulcrum_schedule(path: Path) -> ScheduleTable:
     if not (np.diff(starts) > 0.0).all():
         raise InputError(path, by[0], "does not rise from row to row", "order the rows, one for each start")
     kind = COLUMNS[by[0]]
-    if kind == "stride" and (starts != np.round(starts)).any():
+    if kind == "stride" and ((starts != np.round(starts)) | (starts < 1.0)).any():
         raise InputError(path, by[0], "has a number that is no count", "strides count from 1")
     if kind == "phase" and not ((starts >= 0.0) & (starts < 1.0)).all():
         raise InputError(path, by[0], "is not 0 to below 100 %", "a stride is 100 %, from touch-down to touch-down")

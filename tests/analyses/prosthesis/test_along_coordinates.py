@@ -168,7 +168,7 @@ def test_refused(files: Files, changed: dict[str, Any], words: str) -> None:
 
 
 def test_markers_mass_and_standing_trial_are_compared_with_the_model(files: Files) -> None:
-    """Markers a decimetre ahead are of another walk; 2 cm are a warning, as are 5 kg."""
+    """Markers a decimetre ahead are of another walk; 2.5 cm are a warning, as are 5 kg."""
     head = files.markers.read_text().splitlines()
     for shift, refused in ((100.0, True), (25.0, False)):
         rows = [line.split("\t") for line in head[6:]]
@@ -222,6 +222,52 @@ def test_runs_describe_stances(files: Files, tmp_path: Path) -> None:
     ):
         with pytest.raises(gc.InputError, match=words):
             simulated_before([run("one"), run("odd", **more)])
+
+
+def as_run(file: Path, **options: Any) -> Path:
+    """The run.json of a simulation that was asked this, with no input to compare."""
+    asked = ProsthesisSimulateOptions(**options).in_si()
+    told = {"command": "prosthesis simulate", "options": {}, "options_si": asked, "inputs": []}
+    file.write_text(json.dumps(told, default=str))
+    return file
+
+
+def test_runs_of_several_persons(files: Files, tmp_path: Path) -> None:
+    """A person is who has one standing trial, whatever its folder is called; one person has one mass and one side."""
+
+    def persons(*standing: str) -> list[str]:
+        runs = [
+            as_run(tmp_path / f"{k}.json", **files.given(static=tmp_path / each)) for k, each in enumerate(standing)
+        ]
+        return [each.person for each in simulated_before(runs)]
+
+    record = opened(Record("prosthesis compare", {}))
+    assert persons("P1/standing.trc", "P2/standing.trc", "P1/standing.trc") == ["P1", "P2", "P1"]
+    assert persons("P1/static/a.trc", "P2/static/a.trc") == ["P1/static", "P2/static"]
+    assert persons("all/P1.trc", "all/P2.trc") == ["all/P1", "all/P2"]
+    assert not record.warnings
+    one = as_run(tmp_path / "one.json", **files.given(mass=77.3))
+    for more in ({"mass": 60.0}, {"mass": 77.3, "side": "left"}):
+        other = as_run(tmp_path / "other.json", **files.given(**more))
+        with pytest.raises(gc.InputError, match=r"other\.json.*in an earlier one with the same standing trial"):
+            simulated_before([one, other])
+    fitted = as_run(tmp_path / "fitted.json", **files.given(law=tmp_path / "law.toml"))
+    assert [each.calibrated for each in simulated_before([one, fitted])] == [False, False]
+    (line,) = record.warnings
+    assert line.startswith("amputee_P1_medium_2: whether the law was fitted")
+
+
+def test_runs_of_a_schedule_and_of_one_stance_twice_are_refused(files: Files, tmp_path: Path) -> None:
+    """A schedule has no one fulcrum; a stance would be among the others that it is compared with."""
+    opened(Record("prosthesis compare", {}))
+    one = as_run(tmp_path / "one.json", **files.given())
+    moved = as_run(tmp_path / "moved.json", **files.given(schedule=tmp_path / "schedule.csv"))
+    with pytest.raises(gc.InputError, match=r"moved\.json.*`schedule`: moves the fulcrum"):
+        gc.prosthesis.compare(runs=[moved])
+    high = as_run(tmp_path / "high.json", **files.given(setting="high"))
+    for second in (one, high):
+        with pytest.raises(gc.InputError, match=r"`runs`: the stance of amputee_P1_medium\w* and of amputee_P1_\w+ is"):
+            gc.prosthesis.compare(runs=[one, second])
 
 
 def test_runs_have_their_own_options() -> None:

@@ -71,6 +71,15 @@ def test_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
         gc.prosthesis.compare(written(tmp_path, "low", changed=(old, new)))
 
 
+def test_a_stance_twice_is_refused(tmp_path: Path) -> None:
+    """At another setting it would be among the others that it is compared with."""
+    again = TRIAL.format(meshes=MESHES, setting="low").replace('"P1_low_1"', '"again"').replace('"low"', '"high"')
+    study = written(tmp_path, "low")
+    study.write_text(study.read_text() + again)
+    with pytest.raises(gc.InputError, match=r"\[\[trials\]\]: the stance of P1_low_1 and of again is the same one"):
+        gc.prosthesis.compare(study)
+
+
 @pytest.mark.slow
 @pytest.mark.long
 def test_shipped_stances_from_markers_to_files(tmp_path: Path) -> None:

@@ -155,8 +155,15 @@ def test_near_the_whole_body_in_three_dimensions() -> None:
     own = {"static": stood / "standing.trc", "mass": 77.3, "plates": stood / "plates.mot", "plate": "own_force"}
     given = read(ProsthesisDesignOptions(stood / "walking.trc", cutoff=6.0, **own))
     task, fulcrum = given.trial.task(), given.trial.fulcrum
-    (present, _) = Knob("fulcrum", np.array([fulcrum]), fulcrum).maps(given.foot, task)
+    (present, last) = Knob("fulcrum", np.array([fulcrum]), fulcrum).maps(given.foot, task)
     flat = outcomes(with_angles_kept(present, task))
+    driven, kept = recorded_motion(last, task), with_angles_kept(last, task).leg_torques[:, 0]
+    hip, begun = driven.driven[:, 2] + driven.driven[:, 3], task.time[0] + 0.1
+    during = (driven.time >= task.time[0]) & (driven.time <= begun)
+    off = (hip - np.interp(driven.time, task.time, kept))[during]
+    assert np.sqrt(np.mean(off**2)) < 5.0  # 4.1 N m, between the frames; 0.03 N m at them
+    off = (np.interp(task.time, driven.time, hip) - kept)[task.time > begun]
+    assert np.sqrt(np.mean(off**2)) < 2.0  # 1.3 N m
     functional = {"functional": stood / "functional.trc", "height": 1.81, "other_plate": "other_force"}
     whole = gc.prosthesis.walk(stood / "walking.trc", **own, **functional).peaks
     for joint in ("hip", "knee"):

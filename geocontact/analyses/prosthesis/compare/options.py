@@ -101,6 +101,11 @@ class ProsthesisCompareOptions(Options):
         """What describes the stances."""
         return self.study or (self.runs or (Path(),))[0]
 
+    @property
+    def place(self) -> str:
+        """Where `source` describes the stances, for errors."""
+        return "[[trials]]" if self.study else "`runs`"
+
     def refuse_impossible(self) -> None:
         """No stances, no process at all, a negative number of fits."""
         if self.study is None and not self.runs:

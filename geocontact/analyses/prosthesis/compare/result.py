@@ -165,7 +165,7 @@ def run(given: tuple[StudiedStance, ...], o: ProsthesisCompareOptions) -> Prosth
                     reserve(f"{one.name}: {counted_twice(became.limb)}")
             step()
     if not found:
-        raise InputError(o.source, "[[trials]]", "no stance could be simulated", "look at one with prosthesis simulate")
+        raise InputError(o.source, o.place, "no stance could be simulated", "look at one with prosthesis simulate")
     known = [(one, found[one.name]) for one in given if one.name in found]
     score = given[0].asked.score
     judge(against_the_plates(known, OVER[score]))

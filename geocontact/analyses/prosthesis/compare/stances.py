@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pandas as pd
@@ -66,12 +67,25 @@ class SimulatedStance:
 def read(o: ProsthesisCompareOptions) -> tuple[StudiedStance, ...]:
     """Every stance; what is warned of several is one line."""
     seen: dict[tuple[str, bool], list[str]] = {}
-    found = tuple(_stance(each, o, seen) for each in (described(o) if o.study else simulated_before(o.runs)))
+    asked = described(o) if o.study else simulated_before(o.runs)
+    _require_each_once(asked, o)
+    found = tuple(_stance(each, o, seen) for each in asked)
     files = {each.asked.motion.resolve(): each for each in found}
     check_apart({each.name: each.recorded.seen.positions for each in files.values()}, "one walk is counted as two")
     for (line, cause), names in seen.items():
         reserve(f"{_whose(names, len(found))}: {line}", cause=cause)
     return found
+
+
+def _require_each_once(stances: Sequence[AskedStance], o: ProsthesisCompareOptions) -> None:
+    """InputError for the stance on one plate twice: it would be among the others that it is compared with."""
+    met: dict[tuple[Path, str], str] = {}
+    for one in stances:
+        plates, plate = cast(Path, one.asked.plates), cast(str, one.asked.plate)  # both are required
+        first = met.setdefault((plates.resolve(), plate), one.name)
+        if first != one.name:
+            what = f"the stance of {first} and of {one.name} is the same one, on {plate} in {plates}"
+            raise InputError(o.source, o.place, what, "give each stance on a plate once")
 
 
 def _whose(names: Sequence[str], count: int) -> str:
@@ -84,7 +98,7 @@ def _whose(names: Sequence[str], count: int) -> str:
 def _stance(one: AskedStance, o: ProsthesisCompareOptions, seen: dict[tuple[str, bool], list[str]]) -> StudiedStance:
     """One stance; its warnings, and whether inputs contradict each other in them, go into `seen` with its name."""
     asked = one.asked
-    _require_setting(one, o.source)
+    _require_setting(one, o)
     with collecting(Record("prosthesis simulate", {})) as own:
         recorded = read_walk(asked)
         walk = walk_of(recorded, asked)
@@ -144,14 +158,14 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
     )
 
 
-def _require_setting(one: AskedStance, source: Path) -> None:
+def _require_setting(one: AskedStance, o: ProsthesisCompareOptions) -> None:
     """InputError with the trial's name for a setting or a fulcrum that its foot has not."""
     with collecting(Record("prosthesis simulate", {})):
         foot = foot_of(one.asked.foot)
     try:
         fulcrum_at(foot, one.asked.setting, one.asked.fulcrum)
     except InputError as error:
-        raise replace(error, file=source, place=f"[[trials]] {one.name} {error.place.strip('`')}") from error
+        raise replace(error, file=o.source, place=f"{o.place} {one.name} {error.place.strip('`')}") from error
 
 
 def simulated_stance(one: StudiedStance) -> SimulatedStance | str:

@@ -15,7 +15,7 @@ warning: 79 of 142 numbers of leg and foot are invented, see numbers.csv
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,10 +33,13 @@ from geocontact.analyses.prosthesis.scores import OVER, SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.show import stance_curves, stance_page
 from geocontact.analyses.prosthesis.simulate.strides import (
+    MOST,
     ScheduledStance,
+    of_longest,
     say_strides,
     scheduled,
     strides_table,
+    worst_first,
 )
 from geocontact.analyses.prosthesis.simulate.walk import (
     MARKER_ERROR,
@@ -61,6 +64,7 @@ from geocontact.below_knee_prosthesis.foot_numbers import all_numbers
 from geocontact.below_knee_prosthesis.from_markers import of_side
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, SOCKET
+from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.marker_draws import UNITS as UNITS_OF_BAND
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
@@ -70,7 +74,7 @@ from geocontact.below_knee_prosthesis.stance_summary import doubts, summary
 from geocontact.below_knee_prosthesis.standing_still import StandingStill, standing_still
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
-from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_low_r2, of_range
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2, of_range
 
 if TYPE_CHECKING:
     from geocontact.view.curves.declared import CurveSheet
@@ -221,9 +225,9 @@ class ProsthesisSimulateResult(Result):
 def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimulateResult:
     """The walk, and its stance from before touch-down to after toe-off."""
     walk = walk_of(recorded, o)
-    strides = () if recorded.schedule is None else scheduled(walk, recorded.schedule, o)
+    strides, which = () if recorded.schedule is None else scheduled(walk, recorded.schedule, o), ""
     if strides:
-        longest = max(strides, key=lambda each: each.stride.stance[1] - each.stride.stance[0])
+        longest, which = of_longest(strides)
         walk, limb = longest.walk, longest.limb
         recorded = replace(recorded, fulcrum=walk.fulcrum, plate=walk.plate)
     else:
@@ -232,24 +236,18 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     invented = sum(number.source == "invented" for number in numbers.values())
     reserve(f"{invented} of {len(numbers)} numbers of leg and foot are invented, see numbers.csv")
     found = limb.stance
-    if not found.on.any():
-        raise InputError(
-            o.motion, "", "the foot never touches the floor", "is `ground` right, y = 0 without it, and `mass`?"
-        )
+    _doubt({f"stride {each.stride.number}": each.limb for each in worst_first(strides)} or {"": limb}, o)
     errors = None if walk.plate is None else stance_errors(found, walk.plate, SCORES[o.score])
-    for line in doubts(found):
-        reserve(line)
-    if not limb.settled:
-        reserve(counted_twice(limb))
     told = summary(found)
     note("stance", plain(told))
     note("socket", plain({"turns": limb.turns, "change_BW": limb.change, "settled": limb.settled}))
-    say(found_words(found, told))
+    say(found_words(found, told, which))
     if recorded.schedule is not None:
         say_strides(strides, recorded.schedule.by)
     if errors is not None and walk.plate is not None:
-        say(beside_words(errors))
-        judge(against_the_plate(found, walk.plate, OVER[o.score]))
+        say(beside_words(errors, which))
+        over = OVER[o.score]
+        judge(against_each(strides, over) if strides else against_the_plate(found, walk.plate, over))
         note("errors", plain({name: {"r2": r2, "rmse": off} for name, (r2, off) in errors.table.items()}))
     if walk.leg.offset.given:
         say(offset_words(walk.leg.offset))
@@ -257,6 +255,23 @@ def run(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> ProsthesisSimul
     return ProsthesisSimulateResult(
         options=o, walk=walk, stance=found, errors=errors, numbers=numbers, band=band, still=still, strides=strides
     )
+
+
+def _doubt(limbs: Mapping[str, LimbInSocket], o: ProsthesisSimulateOptions) -> None:
+    """Warnings of each stance, by its name or none, worst first; InputError for a foot that never touches the floor."""
+    doubted = dict[str, list[str]]()
+    for name, limb in limbs.items():
+        if not limb.stance.on.any():
+            remedy = "is `ground` right, y = 0 without it, and `mass`?"
+            raise InputError(o.motion, name, "the foot never touches the floor", remedy)
+        lines = [*doubts(limb.stance), *([] if limb.settled else [counted_twice(limb)])]
+        if lines:
+            doubted[name] = lines
+    for name, lines in list(doubted.items())[:MOST]:
+        for line in lines:
+            reserve(f"{name}: {line}" if name else line)
+    if len(doubted) > MOST:
+        reserve(f"{', '.join(list(doubted)[MOST:])}: such doubts as well")
 
 
 def _band(recorded: RecordedWalk, walk: Walk, found: Stance, o: ProsthesisSimulateOptions) -> MarkerBand | None:
@@ -308,11 +323,11 @@ def _still(walk: Walk, o: ProsthesisSimulateOptions) -> StandingStill | None:
     return still
 
 
-def found_words(found: Stance, told: Mapping[str, float]) -> str:
-    """The whole stance in a sentence, by `summary`."""
-    lasting = f"stance of {told['stance_s']:.2f} s"
+def found_words(found: Stance, told: Mapping[str, float], which: str = "") -> str:
+    """The whole stance in a sentence, by `summary`; `which` follows its length."""
+    lasting = f"stance of {told['stance_s']:.2f} s{which}"
     if np.isnan(told["stance_s"]):
-        lasting = f"stance that is not over after {found.time[-1] - found.time[found.on][0]:.2f} s,"
+        lasting = f"stance that is not over after {found.time[-1] - found.time[found.on][0]:.2f} s{which},"
     return (
         f"{lasting} at the fulcrum of {1e3 * found.fulcrum:.0f} mm: vertical force up to "
         f"{told['vertical_max_BW']:.2f} BW, ankle moment up to {told['ankle_moment_max_N_m']:.0f} N m, keel "
@@ -320,19 +335,30 @@ def found_words(found: Stance, told: Mapping[str, float]) -> str:
     )
 
 
-def beside_words(errors: StanceErrors) -> str:
-    """How far the stance is from its plate in a sentence."""
+def beside_words(errors: StanceErrors, which: str = "") -> str:
+    """How far the stance is from its plate in a sentence; `which` stance that is."""
     r2, off = errors.table["resultant"]
     along = errors.table["cop_ground"]
     return (
-        f"against the plate: R² {r2:.2f}, {off:.1%} BW; centre of pressure R² {along[0]:.2f}, {along[1]:.1%} of the "
-        f"foot; {_lasting(errors)}"
+        f"against the plate{which}: R² {r2:.2f}, {off:.1%} BW; centre of pressure R² {along[0]:.2f}, {along[1]:.1%} of "
+        f"the foot; {_lasting(errors)}"
     )
 
 
 def against_the_plate(found: Stance, plate: PlateStance, over: str = "") -> GoodnessOfFit:
     """`goodness_of` over the stance, whatever is scored: swing agrees by itself."""
     return goodness_of(stance_errors(found, plate), over)
+
+
+def against_each(strides: Sequence[ScheduledStance], over: str = "") -> GoodnessOfFit:
+    """`against_the_plate` of every stride by its number, worst first."""
+    doubts, tested = list[Doubt](), tuple[str, ...]()
+    for each in worst_first(strides):
+        if each.walk.plate is not None:
+            fit = against_the_plate(each.limb.stance, each.walk.plate, over)
+            doubts += [replace(one, what=f"stride {each.stride.number}, {one.what}") for one in fit.doubts]
+            tested = fit.tested
+    return GoodnessOfFit(tuple(doubts), tested)
 
 
 def goodness_of(errors: StanceErrors, over: str = "") -> GoodnessOfFit:

@@ -6,27 +6,31 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.json_file import plain
+from geocontact.analyses.frame.words import counted
 from geocontact.analyses.prosthesis.scores import SCORES
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
 from geocontact.analyses.prosthesis.simulate.walk import simulated
 from geocontact.below_knee_prosthesis.evaluation import PlateStance, StanceErrors, stance_errors
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
-from geocontact.below_knee_prosthesis.plate_checks import LATE
+from geocontact.below_knee_prosthesis.plate_checks import covered_stances, part_of, whole_stances
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.schedule import (
     FulcrumSchedule,
     Stride,
     fastest,
+    never_reached,
     strides_by,
 )
-from geocontact.below_knee_prosthesis.simulate import GATE
 from geocontact.below_knee_prosthesis.stance_summary import in_numbers
 from geocontact.data.errors import InputError
-from geocontact.identify.signals.cycles import loaded_spans
+
+MOST = 6
+"""Strides, or rows of a schedule, that a sentence lists."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +66,12 @@ def scheduled(walk: Walk, schedule: FulcrumSchedule, o: ProsthesisSimulateOption
     except ValueError as error:
         remedy = "move it in swing: strides count from the first whole stance on the plate, from toe-off to touch-down"
         raise InputError(file, schedule.by, str(error), remedy) from error
+    _reserve_rows(schedule, strides)
     _require_actuator(file, strides, walk.foot.record.actuator)
     found = []
     with listener().progress("strides", len(strides)) as step:
         for stride in strides:
-            own = replace(walk, fulcrum=stride.place.fulcrum, plate=_part(plate, stances, stride.number - 1))
+            own = replace(walk, fulcrum=stride.place.fulcrum, plate=part_of(plate, *stride.stance))
             limb = simulated(own, o)
             errors = stance_errors(limb.stance, own.plate or plate, SCORES[o.score])
             found.append(ScheduledStance(stride, own, limb, errors))
@@ -74,22 +79,36 @@ def scheduled(walk: Walk, schedule: FulcrumSchedule, o: ProsthesisSimulateOption
     return tuple(found)
 
 
+def worst_first(strides: Sequence[ScheduledStance]) -> list[ScheduledStance]:
+    """By R² of the resultant force beside the plate."""
+    return sorted(strides, key=lambda each: np.nan_to_num(each.errors.table["resultant"][0], nan=-np.inf))
+
+
+def of_longest(strides: Sequence[ScheduledStance]) -> tuple[ScheduledStance, str]:
+    """The longest stance on the plate, and words that say which one it is."""
+    longest = max(strides, key=lambda each: each.stride.stance[1] - each.stride.stance[0])
+    return longest, f" (stride {longest.stride.number} of {len(strides)}{', the longest' if strides[1:] else ''})"
+
+
 def _covered(plate: PlateStance, walk: Walk) -> list[tuple[float, float]]:
     """Stances that the markers see from before touch-down to after toe-off [s]."""
-    spans = [(float(each.start), float(each.end)) for each in loaded_spans(plate.time, plate.force[:, 1], GATE)]
     start, stop = walk.walked.motion.time[[0, -1]]
-    kept = [(down, off) for down, off in spans if down >= start + LATE and off <= stop]
-    if len(kept) < len(spans):
-        reserve(f"{len(spans) - len(kept)} of {len(spans)} stances on {plate.name} are not covered by the markers")
+    kept, count = covered_stances(plate, float(start), float(stop)), len(whole_stances(plate))
+    if len(kept) < count:
+        reserve(f"{count - len(kept)} of {count} stances on {plate.name} are not covered by the markers")
     return kept
 
 
-def _part(plate: PlateStance, stances: Sequence[tuple[float, float]], k: int) -> PlateStance:
-    """The plate from the stance before to the one after."""
-    on = plate.time >= stances[k - 1][1] if k else plate.time >= plate.time[0]
-    if k + 1 < len(stances):
-        on = on & (plate.time <= stances[k + 1][0])
-    return replace(plate, time=plate.time[on], force=plate.force[on], centre=plate.centre[on])
+def _reserve_rows(schedule: FulcrumSchedule, strides: Sequence[Stride]) -> None:
+    """Warnings for rows that no stride comes to, and for a first stance whose walking speed is not known."""
+    rest = never_reached(schedule, strides)
+    if rest:
+        listed = ", ".join(f"{each.name} from {each.start:g}" for each in rest[:MOST])
+        more = f" and {len(rest) - MOST} more" if len(rest) > MOST else ""
+        reserve(f"rows by {schedule.by} that none of {counted(len(strides), 'stride')} comes to: {listed}{more}")
+    if schedule.by == "speed" and len(schedule.places) > 1:
+        first = strides[0].place.name
+        reserve(f"stride 1 is at {first}, the schedule's first row: no walking speed before it is known")
 
 
 def _require_actuator(file: Path, strides: Sequence[Stride], actuator: float | None) -> None:
@@ -134,10 +153,6 @@ def strides_table(strides: Sequence[ScheduledStance]) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
-
-
-MOST = 6
-"""Strides that a sentence lists."""
 
 
 def say_strides(strides: Sequence[ScheduledStance], by: str) -> None:

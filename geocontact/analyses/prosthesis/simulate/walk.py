@@ -25,6 +25,7 @@ from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import FootOffset, Person
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand, marker_band, with_errors
+from geocontact.below_knee_prosthesis.plate_checks import covered_stances
 from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, simulated_walk
 from geocontact.below_knee_prosthesis.schedule import FulcrumSchedule
 from geocontact.below_knee_prosthesis.simulate import Stance
@@ -133,7 +134,13 @@ def _ground(o: ProsthesisSimulateOptions) -> HalfSpace | Stairs:
 
 
 def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
-    """The leg by the standing trial, its motion by the walking one; InputError where plates and markers do not fit."""
+    """The leg by the standing trial, its motion by the walking one; InputError where plates and markers do not fit.
+
+    With a schedule the plate is tested by the longest stance that the markers cover.
+    """
+    covered = []
+    if recorded.plate is not None and recorded.schedule is not None:
+        covered = covered_stances(recorded.plate, *recorded.seen.time[[0, -1]].tolist())
     walk = fitted_walk(
         recorded.standing,
         recorded.seen,
@@ -142,6 +149,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
         recorded.fulcrum,
         recorded.other,
         plate=recorded.plate,
+        stance=max(covered, key=lambda each: each[1] - each[0], default=None),
         moving=recorded.moving,
         joints=recorded.joints,
         ground=recorded.ground,
