@@ -105,6 +105,16 @@ def test_a_trial_that_cannot_be_evaluated_is_one_line(
     assert told(out)["results"]["trials"] == {"all": 4, "done": 3}
 
 
+@pytest.mark.parametrize(("second", "code"), [("2 wrong", 2), ("2 fails", 1)])
+def test_a_study_without_any_results_is_an_input_mistake_only_where_no_trial_failed(
+    tmp_path: Path, scheduler: str, second: str, code: int
+) -> None:
+    done = cohort(study(tmp_path, {"A": "1 wrong", "B": second}), tmp_path / "out", scheduler)
+    assert done.code == code and done.complaints[-1].endswith(
+        "study.toml: none of the 2 trials could be evaluated; see the lines above"
+    )
+
+
 def test_a_trial_that_failed_leaves_its_whole_traceback_until_it_is_evaluated(tmp_path: Path, scheduler: str) -> None:
     file, out = study(tmp_path, {"A": "1", "B": "2 fails"}), tmp_path / "out"
     line = cohort(file, out, scheduler).complaints[0]
