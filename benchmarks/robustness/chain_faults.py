@@ -191,7 +191,7 @@ def tables_damaged(out: Path, _: Path) -> None:
 
 FAULTS: dict[str, Fault] = {
     "the disk is full": Fault(machine=full_disk, code=1, said="No space left on device"),
-    "files are limited": Fault(machine=limited_files, code=2, said="File too large", lines=SUBJECTS + 1),
+    "files are limited": Fault(machine=limited_files, code=1, said="File too large", lines=SUBJECTS + 1),
     "the folder is read-only": Fault(machine=read_only, code=2, said="cannot be written to"),
     "the clock is set back": Fault(only(), machine=clock_set_back),
     "a bit of an earlier step's file differs": Fault(only(ik=1), lambda o, _: flipped(kept(o, "ik") / "ik.mot")),

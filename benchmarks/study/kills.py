@@ -109,7 +109,7 @@ def disturb(
         way, moment = WAYS[rng.integers(len(WAYS))], rng.uniform(0.0, seconds)
         if evaluations and rng.integers(2):
             moment = rng.uniform(0.0, SOON)
-            _wait(process, out, int(rng.integers(kept(out), evaluations)), way)
+            _wait(process, out, int(rng.integers(min(kept(out), evaluations - 1), evaluations)), way)
         children = _kill(process, way, moment, found, out)
         code = process.wait()
         found.left_running += _left(children)

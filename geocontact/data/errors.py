@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 from dataclasses import dataclass
 from os import PathLike, fspath
+
+OF_THE_MACHINE = frozenset(
+    {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO, errno.ENOMEM, errno.ESTALE}
+)
+"""Errors of files that no other input mends: an `OSError` of them stays one, and a command ends with 1."""
 
 
 @dataclass

@@ -34,7 +34,7 @@ from geocontact.study.limits import LimitSettings, TrialLimits, bytes_of, widest
 from geocontact.study.options import CohortOptions
 from geocontact.study.steps import StepRun, with_files
 from geocontact.study.store import Store
-from geocontact.study.trial_run import DONE, STOPPED, WRONG, TrialOutcome, TrialTask
+from geocontact.study.trial_run import DONE, FAILED, STOPPED, WRONG, TrialOutcome, TrialTask
 from geocontact.study.trials import CohortTrial
 from geocontact.study.workers import outcomes, workers_of
 
@@ -170,7 +170,7 @@ class StudyPlan:
         try:
             task, programs = self._task(one)
         except InputError as error:
-            self._end(k, TrialOutcome(WRONG, str(error)))
+            self._end(k, self._judged(k, TrialOutcome(WRONG, str(error))))
             return
         one.address = task.address
         if task.address in self._became:
@@ -188,6 +188,15 @@ class StudyPlan:
             self._named += programs
             self._waiting.append(task)
             self._at[task.address] = [k]
+
+    def _judged(self, k: int, outcome: TrialOutcome) -> TrialOutcome:
+        """What became of an evaluation: no mistake in its input where results that it takes from have been changed."""
+        sources = [self.evaluations[j] for some in self.evaluations[k].run.takes.values() for j in some]
+        lost = next((each for each in sources if outcome.state == WRONG and not self.store.whole(each.address)), None)
+        if lost is None:
+            return outcome
+        line = f"results of {lost.run.step} of {lost.trial.name} were changed meanwhile; run it again ({outcome.line})"
+        return TrialOutcome(FAILED, line, outcome.seconds)
 
     def _end(self, k: int, outcome: TrialOutcome) -> None:
         self.evaluations[k].outcome = outcome
@@ -285,6 +294,7 @@ class StudyPlan:
                     raise OSError(errno.EIO, line, str(task.store.folder))
                 named = len(self._named)
                 self._ended.clear()
+                outcome = self._judged(self._at[task.address][0], outcome)
                 self._became[task.address] = outcome
                 self._end_all(task.address, outcome)
                 if self._named[named:]:

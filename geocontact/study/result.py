@@ -11,13 +11,14 @@ r"""Studies: `geocontact cohort`, `gc.cohort`.
 
 from __future__ import annotations
 
+import errno
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 import pandas as pd
@@ -60,7 +61,7 @@ from geocontact.study.tables import (
     outlier_table,
     value_table,
 )
-from geocontact.study.trial_run import DONE, FAILED, WRONG, TrialOutcome
+from geocontact.study.trial_run import DONE, FAILED, SET_ASIDE, WRONG, TrialOutcome
 from geocontact.study.trials import CohortTrial
 from geocontact.study.words import say_differences, say_how_many, say_surface
 from geocontact.view.surfaces.points_vtp import write_points_vtp
@@ -297,7 +298,7 @@ class CohortResult(Result):
 
 
 def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
-    """Results of all trials that can be evaluated; InputError where none can be."""
+    """Results of all trials that can be evaluated; InputError or OSError where none can be."""
     place = results_place()
     scratch = Scratch() if place is None else None
     out = place if place is not None else scratch.folder if scratch is not None else Path()
@@ -396,8 +397,7 @@ def _looked_at(
             reserve(f"{each.run.step} of {each.trial.name} is evaluated {each.run.without_words}")
     done = [one for one in trials if one.outcome.state == DONE]
     if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
-        count = len(trials) + len(earlier)
-        raise InputError(o.study, "", f"none of the {count} trials could be evaluated", "see the lines above")
+        _refuse_none(o.study, [one.outcome.state for one in (*earlier, *trials)])
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
     _clean(planned, plan, store, o)
@@ -417,6 +417,14 @@ def _looked_at(
     if surface is not None:
         say_surface(surface)
     return (earlier, trials), curves, surface
+
+
+def _refuse_none(study: Path, states: Sequence[str]) -> NoReturn:
+    """InputError where no trial has results by mistakes in their input; OSError where one failed or was ended."""
+    what, remedy = f"none of the {len(states)} trials could be evaluated", "see the lines above"
+    if {*states} & {FAILED, SET_ASIDE}:
+        raise OSError(errno.EIO, f"{what}; {remedy}", str(study))
+    raise InputError(study, "", what, remedy)
 
 
 def _clean(planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions) -> None:

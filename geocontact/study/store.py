@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.analyses.frame.folder import RUN, is_inside
-from geocontact.data.errors import InputError
+from geocontact.data.errors import OF_THE_MACHINE, InputError
 from geocontact.io.text.file_preflight import read_json
 from geocontact.study.address import LENGTH, Digests
 
@@ -103,6 +103,16 @@ def _moved(file: str, now: Mapping[str, str]) -> str:
     return next((new + file[len(old) :] for old, new in now.items() if file.startswith(f"{old}/")), file)
 
 
+def _as_written(place: Path, run: Mapping[str, Any], digests: Digests) -> bool:
+    """Whether a folder holds what its run.json says of it."""
+    return all(
+        is_inside(place, name)
+        and (place / name).is_file()
+        and (name.endswith(SHOWN) or digests.of(place / name) == known)
+        for name, known in run.get("sha256", {}).items()
+    )
+
+
 @dataclass(frozen=True)
 class Store:
     """Results by address below one folder.
@@ -161,12 +171,15 @@ class Store:
             }
             # a pipe or a device, of which a stranger's results may say that they were made, would be waited for
             same = all(file.is_file() and digests.of(file) == known for file, known in named.items())
-            return same and all(
-                is_inside(place, name)
-                and (place / name).is_file()
-                and (name.endswith(SHOWN) or digests.of(place / name) == known)
-                for name, known in run.get("sha256", {}).items()
-            )
+            return same and _as_written(place, run, digests)
+        except UNREADABLE:
+            return False
+
+    def whole(self, address: str) -> bool:
+        """Whether results are there as they were written, whatever has become of what they were made of."""
+        place = self.place(address)
+        try:
+            return (place / TOLD).is_file() and _as_written(place, read_json(place / RUN), Digests())
         except UNREADABLE:
             return False
 
@@ -243,6 +256,8 @@ class Store:
                 shutil.rmtree(self.folder / WORK, ignore_errors=True)
                 (self.folder / WORK).mkdir(exist_ok=True)
             except OSError as error:
+                if error.errno in OF_THE_MACHINE:
+                    raise
                 what = f"cannot be written to ({error.strerror})"
                 raise InputError(error.filename or self.folder, "", what, "choose another `out`") from error
             try:

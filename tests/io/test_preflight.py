@@ -5,6 +5,7 @@ The readers are those of `benchmarks.damage.readers`; a file that is right is th
 
 from __future__ import annotations
 
+import errno
 import gzip
 import io
 import os
@@ -30,6 +31,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mocap.c3d_markers import read_c3d_markers
 from geocontact.io.text import plain_table, unpacked
+from geocontact.io.text.file_preflight import open_file
 from geocontact.io.text.tables import read_table
 from tests.cli.calls import call
 
@@ -340,3 +342,20 @@ def test_commands_refuse_pipes_and_devices(name: str, tmp_path: Path) -> None:
         assert result.code == 2 and len(result.complaints) == 1, result.err
         assert "is a named pipe" in result.err or "is a device" in result.err, result.err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_machine_that_has_no_more_files_is_no_mistake_of_the_input(tmp_path: Path) -> None:
+    """The file is right, and none can be opened."""
+    import resource
+
+    file = tmp_path / "a.csv"
+    file.write_text("1\n", encoding="utf-8")
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (0, before[1]))
+    try:
+        with pytest.raises(OSError, match=os.strerror(errno.EMFILE)):
+            open_file(file)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+    with open_file(file) as stream:
+        assert stream.read() == b"1\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import platform
@@ -105,6 +106,16 @@ def test_a_trial_that_cannot_be_evaluated_is_one_line(
     assert told(out)["results"]["trials"] == {"all": 4, "done": 3}
 
 
+@pytest.mark.parametrize(("second", "code"), [("2 wrong", 2), ("2 fails", 1)])
+def test_a_study_without_any_results_is_an_input_mistake_only_where_no_trial_failed(
+    tmp_path: Path, scheduler: str, second: str, code: int
+) -> None:
+    done = cohort(study(tmp_path, {"A": "1 wrong", "B": second}), tmp_path / "out", scheduler)
+    assert done.code == code and done.complaints[-1].endswith(
+        "study.toml: none of the 2 trials could be evaluated; see the lines above"
+    )
+
+
 def test_a_trial_that_failed_leaves_its_whole_traceback_until_it_is_evaluated(tmp_path: Path, scheduler: str) -> None:
     file, out = study(tmp_path, {"A": "1", "B": "2 fails"}), tmp_path / "out"
     line = cohort(file, out, scheduler).complaints[0]
@@ -165,6 +176,23 @@ def test_the_page_of_many_trials_links_to_those_that_it_shows(tmp_path: Path, tr
 def test_a_folder_that_takes_no_files_is_refused(tmp_path: Path) -> None:
     refused = call("cohort", study(tmp_path, NUMBERS), "--run-simulator", "--out", "/proc/none")
     assert refused.code == 2 and len(refused.complaints) == 1 and "cannot be written to" in refused.err
+
+
+def test_a_machine_without_room_or_files_is_no_mistake_of_the_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before the first trial: where the folder of results cannot be made, or its lock cannot be opened."""
+    file, makes = study(tmp_path, NUMBERS), Path.mkdir
+    for place, error in (("results", errno.ENOSPC), (".geocontact-", errno.ENOSPC), ("results", errno.EMFILE)):
+
+        def mkdir(folder: Path, *given: Any, place: str = place, error: int = error, **named: Any) -> None:
+            if folder.name.startswith(place):
+                raise OSError(error, os.strerror(error), str(folder))
+            makes(folder, *given, **named)
+
+        monkeypatch.setattr(Path, "mkdir", mkdir)
+        ended = call("cohort", file, "--run-simulator", "--out", tmp_path / "out")
+        assert ended.code == 1 and os.strerror(error) in ended.complaints[-1], ended.err
 
 
 def test_means_of_a_study_are_those_of_its_table_in_si() -> None:

@@ -6,13 +6,16 @@ import json
 import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pytest
 
 from geocontact.data.errors import InputError
 from geocontact.study.description import read_study_file
+from geocontact.study.plan import Evaluation, StudyPlan
 from geocontact.study.steps import runs_of
+from geocontact.study.trial_run import TrialTask
 from tests.cli.calls import Call, call
 from tests.study.chained import NUMBERS, OWN, chain, sine
 
@@ -188,6 +191,41 @@ def test_what_takes_from_a_failed_evaluation_is_not_evaluated(tmp_path: Path, sc
     assert mended.code == 0, mended.err
     found = states(out)["state"]
     assert found["tests_study_chained_add", "B"] == "done" and found["sum", "A 2"] == "not asked for"
+
+
+def test_an_earlier_result_that_is_lost_meanwhile_is_no_mistake_of_the_input(
+    tmp_path: Path, scheduler: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Lost before its path is looked for, or when a worker has it: code 1, and the next run makes it anew."""
+    gives, settles = StudyPlan.__next__, StudyPlan._task
+
+    def lose(plan: StudyPlan, folder: str) -> None:
+        if not lost:
+            lost.append(folder)
+            (plan.study.home / folder / "total.txt").unlink()
+
+    def given(plan: StudyPlan) -> TrialTask:
+        task = gives(plan)
+        if task.step == "sine":
+            lose(plan, task.taken[0])
+        return task
+
+    def settled(plan: StudyPlan, one: Evaluation) -> Any:
+        if one.run.step == "sine":
+            lose(plan, plan._folder(one.run.takes["sum"][0]))
+        return settles(plan, one)
+
+    for name, changed in (("__next__", given), ("_task", settled)):
+        file, out, lost = chain(tmp_path, NUMBERS), tmp_path / name, list[str]()
+        with monkeypatch.context() as patch:
+            patch.setattr(StudyPlan, name, changed)
+            done = cohort(file, out, scheduler)
+        words = states(out)["words"]
+        odd = [words[each] for each in words.index if "were changed meanwhile; run it again" in words[each]]
+        assert done.code == 1 and odd and all(each.startswith("results of sum of ") for each in odd), done.err
+        assert "sine" in {step for step, name in words.index if words[step, name] in odd}
+        again = cohort(file, out, scheduler)
+        assert again.code == 0 and set(states(out)["state"]) == {"done"}, again.err
 
 
 def test_a_link_that_nobody_gave_is_left_out_and_named_before_anything_runs(tmp_path: Path, scheduler: str) -> None:

@@ -53,6 +53,12 @@ def large_ball(file: Path, around: int, down: int) -> None:
     file.write_bytes(b"\0" * 80 + np.uint32(len(facets)).astype("<u4").tobytes() + facets.tobytes())
 
 
+def press(file: Path) -> None:
+    """A press of 0.2 to 0.9 mm within a second, without turns."""
+    rows = [f"{k / 20.0},0,{RADIUS - 0.2 - 0.035 * k},0,1,0,0,0" for k in range(21)]
+    file.write_text("\n".join(["time [s],tx [mm],ty [mm],tz [mm],qw,qx,qy,qz", *rows]) + "\n", encoding="utf-8")
+
+
 def study(folder: Path) -> Path:
     """Three balls pressed into a layer, that of B with four million facets."""
     (folder / "balls").mkdir()
@@ -60,7 +66,7 @@ def study(folder: Path) -> Path:
         shutil.copy(MESHES / "sphere_r20.stl", folder / "balls" / f"{name}.stl")
     large_ball(folder / "balls" / "B.stl", 2001, 1001)
     shutil.copy(MESHES / "plate_80x80x12.stl", folder / "plate.stl")
-    shutil.copy(MESHES / "ball_press.csv", folder / "press.csv")
+    press(folder / "press.csv")
     file = folder / "study.toml"
     file.write_text(STUDY, encoding="utf-8")
     return file

@@ -17,7 +17,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 
 from geocontact.analyses.frame.words import counted
-from geocontact.data.errors import InputError
+from geocontact.data.errors import OF_THE_MACHINE, InputError
 
 RUN = "run.json"
 
@@ -183,6 +183,8 @@ def written_whole(out: Path, overwrite: bool = True) -> Iterator[Path]:
         draft.mkdir(mode=0o700)
     except OSError as error:
         _drafts.discard(draft)
+        if error.errno in OF_THE_MACHINE:
+            raise
         raise InputError(base, "", f"cannot be written to ({error.strerror})", "choose another `out`") from error
     try:
         yield draft

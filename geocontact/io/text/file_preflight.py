@@ -24,7 +24,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from jaxtyping import Int
 
-from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.errors import OF_THE_MACHINE, InputError, InputWarning
 
 UTF8, LATIN1 = "utf-8-sig", "latin-1"
 PIECE = 1 << 20
@@ -114,6 +114,8 @@ def regular_file(path: str | PathLike[str], most_bytes: int | None = None, remed
     try:
         status = Path(path).stat()
     except OSError as error:
+        if error.errno in OF_THE_MACHINE:
+            raise
         raise _refusal(path, error) from error
     except ValueError as error:  # a NUL in the path
         raise InputError(shown, "", f"is not a usable path: {error}", "check the path") from error
@@ -153,6 +155,8 @@ def open_file(path: str | PathLike[str], most_bytes: int | None = None, remedy: 
     try:
         return Path(path).open("rb")
     except OSError as error:
+        if error.errno in OF_THE_MACHINE:
+            raise
         raise _refusal(path, error) from error
 
 
@@ -178,6 +182,8 @@ def read_bytes(
         try:
             return stream.read()
         except OSError as error:
+            if error.errno in OF_THE_MACHINE:
+                raise
             raise _refusal(path, error) from error
 
 
