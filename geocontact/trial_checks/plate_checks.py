@@ -37,6 +37,8 @@ step."""
 LITTLE = 0.04
 """Of the load, by which the force along the walk changes from one half of a step to the other at least; three people
 who walk have 0.17 to 0.29."""
+CLIPPED = 0.05
+"""Share of a step's samples in which the force is at its largest value, no digit changing; noise never is."""
 TRAVEL = 0.005
 """m, along the walk, that a load travels during a step at least; under a foot that rolls it is 150 to 250 mm."""
 
@@ -214,6 +216,16 @@ def copied_components(trial: TrialInputs) -> Iterator[Contradiction]:
                     yield Contradiction(on.source, on.plate.name, line, "is a column copied, or named twice?")
 
 
+def clipped(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The largest force of a step against those beside it."""
+    for step in steps(trial):
+        most = float(step.normal.max())
+        share = float(np.mean(step.normal == most))
+        if share > CLIPPED and len(step.time) * CLIPPED >= 2.0:
+            what = f"its force is {most:.0f} N, the largest, in {share:.0%} of a step's samples"
+            yield Contradiction(step.on.source, step.on.plate.name, what, "is that the end of its range?")
+
+
 def on_its_surface(trial: TrialInputs) -> Iterator[Contradiction]:
     """The centre of pressure against the plate's corners."""
     for on in trial.plates:
@@ -330,6 +342,12 @@ PLATE_CHECKS = (
         "components of the force, and of the centre of pressure, of one plate with each other",
         f"equal in every sample under load, {COPIED} different values at least",
         copied_components,
+    ),
+    Check(
+        "end of range",
+        "largest force of a step with those beside it",
+        f"one value in {CLIPPED:.0%} of the step",
+        clipped,
     ),
     Check(
         "force on the foot",

@@ -288,6 +288,17 @@ def filtered(hertz: float) -> Callable[[ForcePlate], ForcePlate]:
     return change
 
 
+def capped(share: float) -> Callable[[ForcePlate], ForcePlate]:
+    """A plate whose range ends at this share of its largest force."""
+
+    def change(plate: ForcePlate) -> ForcePlate:
+        force = plate.wrench.force.copy()
+        force[:, 1] = np.minimum(force[:, 1], share * force[:, 1].max())
+        return replace(plate, wrench=replace(plate.wrench, force=force))
+
+    return change
+
+
 def doubled(by: float) -> Callable[[np.ndarray], np.ndarray]:
     """The left PSIS at the place of the left ASIS, or so far above it [m]."""
 
@@ -365,6 +376,7 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
     "a gap filled by a straight line": ("frozen marker", lambda t: moved(replace(t, standing=None), bridged(18))),
     "force filtered at 3 Hz": ("clock", lambda t: plated(t, filtered(3.0))),
+    "a plate's range that ends at 0.9 of the force": ("end of range", lambda t: plated(t, capped(0.9))),
     "no force along the floor": ("braking", lambda t: plated(t, forced((0.0, 1.0, 0.0)))),
     "a tenth of the force along the walk": ("braking", lambda t: plated(t, forced((0.1, 1.0, 1.0)))),
     "one component twice": ("copied component", lambda t: plated(t, one_twice)),
@@ -384,6 +396,7 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "toes 20 mm higher than the heel": lambda t: standing_moved(t, 1, 0.02),
     "a floor 15 mm lower": lambda t: standing_moved(replace(t, floor=0.0), None, 0.015),
     "6 frames along a straight line": lambda t: moved(replace(t, standing=None), bridged(6)),
+    "a plate's range that ends at the force": lambda t: plated(t, capped(0.9999)),
     "force filtered at 20 Hz": lambda t: plated(t, filtered(20.0)),
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),

@@ -64,6 +64,10 @@ def doubt_bending(
     if knee.min() < -FORWARD_KNEE and -knee.min() > knee.max():
         reserve(f"{file}: knee is {knee.min():.0f} degrees at its least, flexion being positive: is its sign turned?")
         return
+    for name, angle in angles.items():
+        if name in SEATED and np.ptp(angle) == 0.0 and np.ptp(angles["knee"]) > BENT:
+            what = f"{name} stays at {abs(angle[0]):.3g} degrees while the knee moves by {np.ptp(angles['knee']):.0f}"
+            reserve(f"{file}: {what}: is its column empty?")
     lowest = int(np.argmin(height))
     for name, most in SEATED.items():
         if knee[lowest] > BENT and angles[name][lowest] > most:

@@ -218,6 +218,9 @@ FINDINGS: dict[str, Finding] = {
     "movements: ankles turned": Finding(
         moved(columns_changed("T1_coordinates.sto", turned("ankle"))), "warned: .*ankle is 2. degrees where the hip is"
     ),
+    "movements: an ankle of 0": Finding(
+        moved(columns_changed("T1_coordinates.sto", times(0.0, "ankle"))), "warned: .*ankle stays at 0 degrees while"
+    ),
     "movements: plates of another rise": Finding(moved(plates="T3"), "warned: .*feet_force.* is 0.17 s after weight"),
     "movements: loads in lbf": Finding(
         moved(columns_changed("T1_plates.mot", times(1 / 4.448, "_vy"))), "warned: .*carry 183 N, 18.7 kg.*not in lbf"
