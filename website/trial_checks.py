@@ -54,9 +54,11 @@ is damaged in {real} more. {recordings} real recordings, {models} motions of mod
 
 What no check can see: plates of another trial of that person with steps at the same places and times; half of the
 force without a mass, in `cop` and `gap gather`; 60 N on a plate over which no foot swings; a mirrored force along the
-floor of who stands up; steps that are not whole; a gain below 1.3 of a file's only plate; kgf or lbf in `modulus`,
-`knee settle` and `sit-to-stand movements`; a diameter for R of a two-sided knee; a drift in cm; m called mm, and signs
-of moments, near the origin; a heel 30 mm lower in the standing trial; a strap's unit while its stiffness is sought.
+floor of who stands up; steps that are not whole; a gain below 1.3 of a file's only plate; kgf or lbf in `modulus` and
+`knee settle`; a diameter for R of a two-sided knee; a drift in cm; m called mm, and signs of moments, near the origin;
+a heel 30 mm lower in the standing trial; a strap's unit while its stiffness is sought; a clock 10 ms or 5 % off; a
+load 50 mm ahead; cross-talk of 15 %; markers filtered at too low a frequency; zeros and signs of angles without
+markers; a marker 30 mm off in `ik`; T10 150 mm lower; a tool in lb; a strap that drops to 0.
 
 Checks took {median:.1%} of a command's CPU time in the median of {commands}, {most:.1%} at most
 (`python -m benchmarks.robustness.checks_cost`).

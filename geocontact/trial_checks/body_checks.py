@@ -52,6 +52,8 @@ OFF, LONG = 0.25, 0.15
 """Share of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
 FEWEST = 30
 """Frames of a lag."""
+COARSE, LEVELS = np.radians(0.5), 3
+"""rad, of the steps in which an angle is written, and so many of them that it takes; at 100 Hz they are 87 rad/s^2."""
 
 
 def angles_in_degrees(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -111,6 +113,29 @@ def in_range(trial: TrialInputs) -> Iterator[Contradiction]:
         more = f", and {len(beyond) - 1} more do" if len(beyond) > 1 else ""
         remedy = "is its sign that of the model, its unit right, and are the coordinates of this model?"
         yield Contradiction(moved.source, "", what + more, remedy)
+
+
+def resolution(trial: TrialInputs) -> Iterator[Contradiction]:
+    """Angles that change in coarse steps, and stay between them, of which no acceleration is known."""
+    moved = trial.moved
+    if moved is None or len(moved.time) < FEWEST:
+        return
+    coarse = {}
+    for k, c in enumerate(moved.model.coordinates):
+        change = np.abs(np.diff(moved.values[:, k]))
+        moves = change > 1e-6
+        if c.kind != "rotational" or not moves.any() or moves.all():
+            continue
+        step = float(change[moves].min())
+        whole = np.abs(moved.values[:, k] / step - np.round(moved.values[:, k] / step)).max() < 1e-3
+        if step >= COARSE and whole and np.ptp(moved.values[:, k]) >= LEVELS * step:
+            coarse[c.name] = step
+    if coarse:
+        name = max(coarse, key=lambda each: coarse[each])
+        what = f"{name} is written in steps of {np.degrees(coarse[name]):.2g} degrees"
+        yield Contradiction(
+            moved.source, "", what, "was it rounded? its rates and accelerations are those of the steps"
+        )
 
 
 def build(trial: TrialInputs) -> Iterator[Contradiction]:
@@ -334,6 +359,12 @@ BODY_CHECKS = (
         "angles of joints with the ranges that the model states, shifts with the length of a hall",
         f"{np.degrees(BEYOND):.0f} degrees beyond, {FAR:g} m; degrees read as radians are refused by the reader",
         in_range,
+    ),
+    Check(
+        "resolution",
+        "steps in which an angle is written with what it moves by",
+        f"{np.degrees(COARSE):g} degrees",
+        resolution,
     ),
     Check(
         "mass and height",

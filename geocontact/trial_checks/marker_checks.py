@@ -12,7 +12,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.dynamics.tilt import axes_upright
 from geocontact.trial_checks.landmarks import FOOT, landmark, middle, points
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
-from geocontact.trial_checks.twice import held_steps
+from geocontact.trial_checks.twice import EVEN, KINK, STRAIGHT, held_steps, straight_gaps
 
 STEP, ACCELERATION = 0.04, 200.0
 """m, and m/s^2 over one sample: a marker of a person does not leave its course by more from one frame to the next.
@@ -261,6 +261,7 @@ def _segments(names: tuple[str, ...]) -> list[tuple[str, ...]]:
 
 def standing_still(trial: TrialInputs) -> Iterator[Contradiction]:
     """A marker at one and the same place while the others move on."""
+    yield from straight_gaps(trial)
     seen = trial.markers
     if seen is None or len(seen.names) < FEWEST + 1 or len(seen) <= STILL_FOR:
         return
@@ -370,7 +371,8 @@ MARKER_CHECKS = (
     Check(
         "frozen marker",
         "the place of a marker with those of the others",
-        f"{STILL_FOR} frames at one place while the median of the others moves by {1e3 * OTHERS_MOVE:.0f} mm",
+        f"{STILL_FOR} frames at one place while the median of the others moves by {1e3 * OTHERS_MOVE:.0f} mm; "
+        f"{STRAIGHT} straight to {1e3 * EVEN:g} mm between kinks of {1e3 * KINK:g} mm",
         standing_still,
     ),
     Check(

@@ -34,6 +34,11 @@ have 0.1 and 0.02 m."""
 SPEED, IMPULSE = 0.5, 0.02
 """m/s, from which somebody walks; share of the body's weight that braking or propulsion has in the mean of half a
 step."""
+LITTLE = 0.04
+"""Of the load, by which the force along the walk changes from one half of a step to the other at least; three people
+who walk have 0.17 to 0.29."""
+CLIPPED = 0.05
+"""Share of a step's samples in which the force is at its largest value, no digit changing; noise never is."""
 TRAVEL = 0.005
 """m, along the walk, that a load travels during a step at least; under a foot that rolls it is 150 to 250 mm."""
 
@@ -211,6 +216,16 @@ def copied_components(trial: TrialInputs) -> Iterator[Contradiction]:
                     yield Contradiction(on.source, on.plate.name, line, "is a column copied, or named twice?")
 
 
+def clipped(trial: TrialInputs) -> Iterator[Contradiction]:
+    """The largest force of a step against those beside it."""
+    for step in steps(trial):
+        most = float(step.normal.max())
+        share = float(np.mean(step.normal == most))
+        if share > CLIPPED and len(step.time) * CLIPPED >= 2.0:
+            what = f"its force is {most:.0f} N, the largest, in {share:.0%} of a step's samples"
+            yield Contradiction(step.on.source, step.on.plate.name, what, "is that the end of its range?")
+
+
 def on_its_surface(trial: TrialInputs) -> Iterator[Contradiction]:
     """The centre of pressure against the plate's corners."""
     for on in trial.plates:
@@ -278,10 +293,14 @@ def braking(trial: TrialInputs) -> Iterator[Contradiction]:
             what = f"it pushes along the walk before it brakes, {first:.1%} and {second:.1%} of the load"
             remedy = "is the sign of the force along the walk turned, or an axis of plates or markers?"
             yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
-        sideways, fore = np.abs(np.diff(_halves(beside))), np.abs(np.diff(_halves(along)))
+        sideways, fore = (float(np.abs(np.diff(_halves(each)))[0]) for each in (beside, along))
         if sideways > 2.0 * IMPULSE and fore < 0.5 * sideways:
             what = "it brakes and propels across the walk, not along it"
             remedy = "are plates and markers in the same axes?"
+            yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
+        elif fore < LITTLE:
+            what = f"it brakes and propels the walk by {0.5 * fore:.2%} of the load"
+            remedy = "does the plate measure along the floor, and in the unit of its other columns?"
             yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
 
 
@@ -325,6 +344,12 @@ PLATE_CHECKS = (
         copied_components,
     ),
     Check(
+        "end of range",
+        "largest force of a step with those beside it",
+        f"one value in {CLIPPED:.0%} of the step",
+        clipped,
+    ),
+    Check(
         "force on the foot",
         "sign of the force under load with the way out of the floor",
         f"refused; with a mass from {WORN:.0%} of the weight on, as a device that is worn may press down",
@@ -339,7 +364,8 @@ PLATE_CHECKS = (
     Check(
         "braking",
         "force along the walk in both halves of a step, with the way that markers go, or the hip over the foot",
-        f"{IMPULSE:.0%} of the load, of somebody faster than {SPEED:g} m/s; a load that moves by {1e3 * TRAVEL:g} mm",
+        f"{IMPULSE:.0%} of the load, {LITTLE:.0%} from one half to the other, of somebody faster than {SPEED:g} m/s; "
+        f"a load that moves by {1e3 * TRAVEL:g} mm",
         braking,
     ),
     Check(

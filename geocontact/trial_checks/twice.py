@@ -25,6 +25,9 @@ TOES = "mtp"
 """Coordinates that OpenCap moves alike on both sides."""
 MOVES = (1e-2, 1e-3)
 """rad and m by which a coordinate changes that is looked at: a model holds others at one value."""
+STRAIGHT, EVEN, KINK, MOSTLY_EVEN = 10, 3e-5, 1.5e-3, 0.75
+"""Frames of a straight line at one speed; m, of its second differences, those of places rounded to 0.01 mm, and of
+those at its ends, noise of cameras being 0.1 mm and more; share of such frames in a course that a model made."""
 
 
 def same_recordings(recordings: Mapping[str, Float[np.ndarray, "*shape"]]) -> list[tuple[str, str]]:
@@ -91,6 +94,27 @@ def held_steps(places: Float[np.ndarray, "n m 3"], fewest: int) -> dict[int, Boo
         if len(edges) and (edges[1::2] - edges[::2]).max() >= fewest:
             found[int(k)] = same
     return found
+
+
+def straight_gaps(trial: TrialInputs) -> Iterator[Contradiction]:
+    """A marker that goes along a straight line at one speed, with a kink where it begins and where it ends."""
+    seen = trial.markers
+    if seen is None or len(seen) < STRAIGHT + 2:
+        return
+    bent = np.nan_to_num(np.linalg.norm(np.diff(seen.positions, n=2, axis=0), axis=2), nan=np.inf)
+    for k, name in enumerate(seen.names):
+        even = bent[:, k] < EVEN
+        if even.mean() > MOSTLY_EVEN:
+            continue
+        edges = np.flatnonzero(np.diff(np.r_[False, even, False].astype(int)))
+        for start, stop in zip(edges[::2], edges[1::2], strict=True):
+            kinks = bent[[max(start - 1, 0), min(stop, len(bent) - 1)], k]
+            if stop - start >= STRAIGHT and np.isfinite(kinks).all() and kinks.min() > KINK:
+                what = (
+                    f"{name} goes straight on at one speed from {seen.time[start]:.2f} to {seen.time[stop + 1]:.2f} s"
+                )
+                yield Contradiction(seen.source, "", what, "is a gap filled by a straight line? leave gaps empty")
+                break
 
 
 def standing_twice(trial: TrialInputs) -> Iterator[Contradiction]:

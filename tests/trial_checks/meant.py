@@ -79,6 +79,7 @@ MEANT = {
     "x in mm, called m": r"x reaches # m; is it in mm\?",
     "the same files twice": r"name the files of that trial's own recording",
     "the same plates twice": r"name the files of each trial's own recording",
+    "the same plates on another clock": r"sample by sample: trials that are one count twice",
     "inputs 1 s late": r"put both on one clock",
     "inputs 0.1 s late": CLOCK,
     "decimal comma in the inputs": COMMA,

@@ -191,6 +191,7 @@ def uneven(copied: bool) -> Change:
 DAMAGED: dict[str, tuple[str, Change]] = {
     "a knee's column copied": ("one coordinate twice", uneven(copied=True)),
     "radians as degrees": ("angles in degrees", angled(np.radians)),
+    "angles to whole degrees": ("resolution", angled(lambda q: np.radians(np.round(np.degrees(q))))),
     "sign of all angles": ("range of a coordinate", angled(np.negative)),
     "a plate 0.1 s late under who rises": ("weight in time", later(0.1)),
     "a plate 0.1 s early under who rises": ("weight in time", later(-0.1)),
@@ -217,6 +218,7 @@ NEARLY: dict[str, Change] = {
     "who rises": lambda _: risen(),
     "who rises unevenly": uneven(copied=False),
     "who hardly moves, in degrees": angled(lambda q: np.radians(0.2) * q / np.abs(q).max()),
+    "angles to a tenth of a degree": angled(lambda q: np.radians(np.round(np.degrees(q), 1))),
     "knees 8 degrees beyond their range": angled(lambda q: np.full_like(q, np.radians(20.0))),
     "feet 30 mm aside": aside(0.03),
     "rates as they are": rated(1.0),

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import butter, filtfilt
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.multibody.force_plate import ForcePlate
@@ -266,6 +267,40 @@ def held(frames: int) -> Callable[[np.ndarray], np.ndarray]:
     return change
 
 
+def bridged(frames: int) -> Callable[[np.ndarray], np.ndarray]:
+    """The right toes go along a straight line for so many frames of a swing."""
+
+    def change(places: np.ndarray) -> np.ndarray:
+        first = 150
+        share = np.linspace(0.0, 1.0, frames + 1)[:, None]
+        last = places[first + frames, 1]
+        places[first : first + frames + 1, 1] = (1.0 - share) * places[first, 1] + share * last
+        return places
+
+    return change
+
+
+def filtered(hertz: float) -> Callable[[ForcePlate], ForcePlate]:
+    """Force through a low-pass filter, forwards and backwards; the centre of pressure as it was."""
+    b, a = butter(2, hertz / 500.0)
+
+    def change(plate: ForcePlate) -> ForcePlate:
+        return replace(plate, wrench=replace(plate.wrench, force=filtfilt(b, a, plate.wrench.force, axis=0)))
+
+    return change
+
+
+def capped(share: float) -> Callable[[ForcePlate], ForcePlate]:
+    """A plate whose range ends at this share of its largest force."""
+
+    def change(plate: ForcePlate) -> ForcePlate:
+        force = plate.wrench.force.copy()
+        force[:, 1] = np.minimum(force[:, 1], share * force[:, 1].max())
+        return replace(plate, wrench=replace(plate.wrench, force=force))
+
+    return change
+
+
 def doubled(by: float) -> Callable[[np.ndarray], np.ndarray]:
     """The left PSIS at the place of the left ASIS, or so far above it [m]."""
 
@@ -341,6 +376,11 @@ DAMAGED: dict[str, tuple[str, Callable[[TrialInputs], TrialInputs]]] = {
     "the walk for the standing trial": ("standing trial twice", lambda t: replace(t, standing=t.markers)),
     "a marker's column copied": ("one marker twice", lambda t: moved(replace(t, standing=None), doubled(0.0))),
     "a gap filled with the last place": ("frozen marker", lambda t: moved(replace(t, standing=None), held(12))),
+    "a gap filled by a straight line": ("frozen marker", lambda t: moved(replace(t, standing=None), bridged(18))),
+    "force filtered at 3 Hz": ("clock", lambda t: plated(t, filtered(3.0))),
+    "a plate's range that ends at 0.9 of the force": ("end of range", lambda t: plated(t, capped(0.9))),
+    "no force along the floor": ("braking", lambda t: plated(t, forced((0.0, 1.0, 0.0)))),
+    "a tenth of the force along the walk": ("braking", lambda t: plated(t, forced((0.1, 1.0, 1.0)))),
     "one component twice": ("copied component", lambda t: plated(t, one_twice)),
     "thirty frames missing": ("sampling", lambda t: later_half(t, 0.3)),
     "82 kg in pounds": ("mass and upper arm", carried(181.0)),
@@ -357,6 +397,9 @@ NEARLY: dict[str, Callable[[TrialInputs], TrialInputs]] = {
     "80 kg where the plate carries 75": stood(80.0),
     "toes 20 mm higher than the heel": lambda t: standing_moved(t, 1, 0.02),
     "a floor 15 mm lower": lambda t: standing_moved(replace(t, floor=0.0), None, 0.015),
+    "6 frames along a straight line": lambda t: moved(replace(t, standing=None), bridged(6)),
+    "a plate's range that ends at the force": lambda t: plated(t, capped(0.9999)),
+    "force filtered at 20 Hz": lambda t: plated(t, filtered(20.0)),
     "half of the braking": lambda t: plated(t, forced((0.5, 1.0, 1.0))),
     "0.03 s late": lambda t: plated(t, later(0.03)),
     "floor 15 mm up": lambda t: moved(t, lambda p: p + np.array([0.0, 0.015, 0.0])),

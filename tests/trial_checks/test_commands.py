@@ -455,6 +455,10 @@ GATHERED = PLATED | {
         "gather.toml", lambda t: t.replace("t02.csv", "t01.csv").replace("t02.mot", "plates.mot")
     ),
     "the same plates twice": text_changed("gather.toml", lambda t: t.replace("t02.mot", "plates.mot")),
+    "the same plates on another clock": all_of(
+        lambda folder: (shutil.copy(folder / "plates.mot", folder / "t02.mot"), {})[1],
+        columns_changed("t02.mot", late(0.004)),
+    ),
     "inputs 1 s late": rows_changed("t01.csv", moved(0, by=1.0)),
     "inputs 0.1 s late": rows_changed("t01.csv", moved(0, by=0.1)),
     "decimal comma in the inputs": decimal_comma("t01.csv"),

@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.agreement import clock_words, lag_of, likely_cause
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.standing_up.chain import JOINTS, leg_chain
+from geocontact.standing_up.chain import GRAVITY, JOINTS, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
+from geocontact.standing_up.prediction import contact_parameters
 from geocontact.standing_up.recorded_balance import strap_by_coordinates, torques_by_ground
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
+from geocontact.trial_checks.body_checks import BUILD, STANDING
+from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
+from geocontact.trial_checks.table import CHECKS
 
 HINGES = (*JOINTS, *EXO_JOINTS)
 """Joints, and hinges beside them, in the order of a file of torques."""
@@ -28,10 +34,16 @@ STRAPPED, SMALLER, LARGER = 5.0, 0.15, 6.0
 that are another unit; errors of angles make it 1.4 times too large by coordinates."""
 TURNED, ALIKE = -0.4, 0.5
 """Correlations of both, below which a sign is turned, and above which a lag is looked at."""
+CROSSED, APART = 0.3, 0.8
+"""Correlations with each other's springs, and their sum beyond that with their own, of straps that are exchanged."""
 CUTOFF, FARTHEST, LATE, CLEARER = 6.0, 0.45, 0.1, 0.2
 """Hz, of both; s, of the lags that are looked at, and s and correlation from which a clock is doubted."""
 
 
+ANGLES, UPRIGHT = slice(3, 6), np.radians(25.0)
+"""Ankle, knee and hip; angles of somebody who stands."""
+IN_TIME = tuple(check for check in CHECKS if check.name == "weight in time")
+"""A check of plates whose mass nobody stated."""
 FORWARD_KNEE, BENT = 30.0, 60.0
 """Degrees; a knee that is stretched as far as it goes is 10 degrees beyond straight at most; and from which somebody
 sits or squats where the hip is lowest."""
@@ -52,11 +64,41 @@ def doubt_bending(
     if knee.min() < -FORWARD_KNEE and -knee.min() > knee.max():
         reserve(f"{file}: knee is {knee.min():.0f} degrees at its least, flexion being positive: is its sign turned?")
         return
+    for name, angle in angles.items():
+        if name in SEATED and np.ptp(angle) == 0.0 and np.ptp(angles["knee"]) > BENT:
+            what = f"{name} stays at {abs(angle[0]):.3g} degrees while the knee moves by {np.ptp(angles['knee']):.0f}"
+            reserve(f"{file}: {what}: is its column empty?")
     lowest = int(np.argmin(height))
     for name, most in SEATED.items():
         if knee[lowest] > BENT and angles[name][lowest] > most:
             what = f"{name} is {angles[name][lowest]:.0f} degrees where the hip is lowest and the knee bent by"
             reserve(f"{file}: {what} {knee[lowest]:.0f}, flexion of {name} being negative: is its sign turned?")
+
+
+def doubt_plates(
+    plates: tuple[FootPlate, ...],
+    moved: tuple[Float[np.ndarray, " t"], Float[np.ndarray, "t c"]],
+    height: float,
+    file: Path,
+) -> None:
+    """Plates of all that carries the person, while the person stands with the height, and over time with the motion.
+
+    A warning for a weight that belongs to nobody of that `height` [m], and for plates of another rise; `moved` are
+    times [s] and coordinates of `file`. Nothing where the person stands neither at the beginning nor at the end.
+    """
+    time, q = moved
+    stands = [float(time[k]) for k in (-1, 0) if np.abs(q[k, ANGLES]).max() < UPRIGHT]
+    if not stands:
+        return
+    parts = [on.normal[np.abs(on.plate.time - stands[0]) <= STANDING] for on in plates]
+    mass = sum(float(part.mean()) if len(part) else np.nan for part in parts) / -GRAVITY[1]
+    names = " and ".join(on.plate.name for on in plates)
+    if not BUILD[0] <= mass / height**2 <= BUILD[1]:
+        what = f"carry {mass * -GRAVITY[1]:.0f} N, {mass:.3g} kg, while a person of {height:.2f} m stands"
+        reserve(f"{plates[0].source} {names}: {what}; is the force in N, not in lbf or kgf, and `height` the person's?")
+        return
+    whole = MovedModel(leg_chain(Subject(mass, height)), time, q, str(file))
+    check_trial(TrialInputs(plates=plates, mass=mass, stands_at=stands[0], moved=whole), IN_TIME)
 
 
 def doubt_torques(name: str, file: Path, chain: Multibody, trial: StandingTrial) -> None:
@@ -99,6 +141,38 @@ def doubt_straps(file: Path, trials: StandingUpTrials, values: Mapping[str, floa
                 why = _another(strap_by_coordinates(chain, q, site, values), zero_lag(recorded, step, CUTOFF), step)
                 if why:
                     reserve(f"{trial.name}: the force of the strap at the {site.name} in {file.name} {why}")
+
+
+def doubt_sites(trials: StandingUpTrials) -> None:
+    """Straps whose stiffness is sought, with the usual springs between person and exoskeleton.
+
+    A warning for one that falls where its spring is pressed more, and for two that follow each other's spring.
+    """
+    chain = two_chains(trials.subject)
+    values = {each.name: each.usual for each in contact_parameters(trials.sites)}
+    for trial in trials.trials:
+        if trial.straps is None:
+            continue
+        step = 1.0 / trial.rate
+        q = zero_lag(trial.q, step, CUTOFF)
+        there = {
+            s.name: zero_lag(f, step, CUTOFF) for s, f in zip(trials.sites, trial.straps.T, strict=True) if f.any()
+        }
+        there = {name: force for name, force in there.items() if np.isfinite(force).all() and np.std(force) > 0.0}
+        asked = {s.name: strap_by_coordinates(chain, q, s, values) for s in trials.sites if s.name in there}
+        alike = {(a, b): float(np.corrcoef(there[a], asked[b])[0, 1]) for a in there for b in there}
+        crossed = [
+            (a, b)
+            for a, b in combinations(there, 2)
+            if min(alike[a, b], alike[b, a]) > CROSSED and alike[a, b] + alike[b, a] - alike[a, a] - alike[b, b] > APART
+        ]
+        for one, other in crossed:
+            what = f"{trial.name}: the strap at the {one} follows the spring of that at the {other}, and vice versa"
+            reserve(f"{what}; are they exchanged?")
+        for name in there if not crossed else ():
+            if alike[name, name] < TURNED and min(np.std(there[name]), np.std(asked[name])) > STRAPPED:
+                what = f"{trial.name}: the force of the strap at the {name} falls where its spring is pressed more"
+                reserve(f"{what}: is its sign turned, or are the device's angles others?")
 
 
 def _another(asked: Float[np.ndarray, " t"], recorded: Float[np.ndarray, " t"], step: float) -> str:

@@ -15,7 +15,7 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.recorded_beside import HINGES, doubt_bending, doubt_torques
+from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, HINGES, UPRIGHT, doubt_bending, doubt_torques
 from geocontact.analyses.sit_to_stand.trial_recordings import (
     FEWEST,
     Times,
@@ -47,9 +47,6 @@ from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_s
 from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
-
-JOINTS, UPRIGHT = slice(3, 6), np.radians(25.0)
-"""Ankle, knee and hip; angles of somebody who stands."""
 
 
 def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: str | None = None) -> StandingUpTrials:
@@ -205,7 +202,7 @@ def channels_of(
         with named_plate(files.plates, chair):
             sat_on = chair_load(wrench_at(chair, time), time)
     plates_of = tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None)
-    upright = [k for k in (-1, 0) if feet is not None and np.abs(q[k, JOINTS]).max() < UPRIGHT]
+    upright = [k for k in (-1, 0) if feet is not None and np.abs(q[k, ANGLES]).max() < UPRIGHT]
     recorded = [("strap", "N", strap)] if strap is not None else []
     if torque is not None:
         recorded += [(f"torque of {name}", "N m", own) for name, own in zip(HINGES, torque.T, strict=False)]

@@ -18,6 +18,8 @@ from geocontact.analyses.motion.styles import Cutting
 from geocontact.analyses.prosthesis.foot_file import foot_of
 from geocontact.analyses.shoulder.simulate.arms import read as read_arms
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
+from geocontact.analyses.sit_to_stand.calibrate.options import StandingCalibrateOptions
+from geocontact.analyses.sit_to_stand.calibrate.result import read as read_calibrate
 from geocontact.analyses.sit_to_stand.standing_trials import _warn_of_copies
 from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, person_of
 from geocontact.io.recordings.gait_events import read_gait_events
@@ -66,14 +68,14 @@ def loads(factor: float) -> Damage:
     return columns_changed("plates.mot", change)
 
 
-def moved(change: Damage = untouched, feet: str = "feet_force") -> Attempt:
+def moved(change: Damage = untouched, feet: str = "feet_force", plates: str = "T1") -> Attempt:
     """Sit-to-stand movements of a shipped trial."""
 
     def attempt(folder: Path) -> Lines:
         there = files_of(WORN, folder)
         change(there)
-        plates = {"plates": there / "T1_plates.mot", "chair": "chair_force", "feet": feet}
-        return heard(gc.sit_to_stand.movements, there / "T1_coordinates.sto", **plates)
+        given = {"plates": there / f"{plates}_plates.mot", "chair": "chair_force", "feet": feet}
+        return heard(gc.sit_to_stand.movements, there / "T1_coordinates.sto", **given)
 
     return attempt
 
@@ -116,6 +118,33 @@ def measured(change: Callable[[pd.DataFrame], object], which: slice = slice(None
         return heard_reading(read_identify, IdentifyOptions, files)
 
     return attempt
+
+
+def sought(change: Damage = untouched) -> Attempt:
+    """Sit-to-stand calibrate, up to its reading, of trials with several straps."""
+
+    def attempt(folder: Path) -> Lines:
+        there = files_of(SITES, folder)
+        change(there)
+        return heard_reading(read_calibrate, StandingCalibrateOptions, there / "study.toml")
+
+    return attempt
+
+
+def strap_times(factor: float) -> Damage:
+    def damage(folder: Path) -> dict[str, Any]:
+        table(folder / "T1_strap_pelvis.csv", times_column("normal [N]", factor))
+        return {}
+
+    return damage
+
+
+def exchanged(folder: Path) -> dict[str, Any]:
+    one, other = (folder / f"T3_strap{site}.csv" for site in ("", "_shank"))
+    ours, theirs = one.read_text(), other.read_text()
+    one.write_text(theirs)
+    other.write_text(ours)
+    return {}
 
 
 def of_another_trial(folder: Path) -> Lines:
@@ -189,6 +218,15 @@ FINDINGS: dict[str, Finding] = {
     "movements: ankles turned": Finding(
         moved(columns_changed("T1_coordinates.sto", turned("ankle"))), "warned: .*ankle is 2. degrees where the hip is"
     ),
+    "movements: an ankle of 0": Finding(
+        moved(columns_changed("T1_coordinates.sto", times(0.0, "ankle"))), "warned: .*ankle stays at 0 degrees while"
+    ),
+    "movements: plates of another rise": Finding(moved(plates="T3"), "warned: .*feet_force.* is 0.17 s after weight"),
+    "movements: loads in lbf": Finding(
+        moved(columns_changed("T1_plates.mot", times(1 / 4.448, "_vy"))), "warned: .*carry 183 N, 18.7 kg.*not in lbf"
+    ),
+    "calibrate: a strap turned": Finding(sought(strap_times(-1.0)), "warned: T1: .*pelvis falls .*is its sign turned"),
+    "calibrate: two straps exchanged": Finding(sought(exchanged), "warned: T3: .*thigh follows .*shank.*are they exch"),
     "person: a thigh's mass of both legs": Finding(segment("thigh", "mass", 20.0, "kg"), "warned: .*its mass is 2 tim"),
     "person: a shank in cm": Finding(segment("shank", "length", 44.0, "mm"), "warned: .*its length is 0.099 times"),
     "person: a thigh's centre beyond it": Finding(
@@ -219,6 +257,9 @@ RIGHT: dict[str, Attempt] = {
     "coordinates: loads 5 % off": in_plane(loads(1.05)),
     "coordinates: 1.6 m": in_plane(height=1.6),
     "movements": moved(),
+    "movements: loads 20 % off": moved(columns_changed("T1_plates.mot", times(1.2, "_vy"))),
+    "calibrate": sought(),
+    "calibrate: a strap twice as stiff": sought(strap_times(2.0)),
     "person: a thigh 20 % heavier": segment("thigh", "mass", 11.9, "kg"),
     "person: a shank 10 % longer": segment("shank", "length", 490.0, "mm"),
     "person: a thigh's radius of a third": segment("thigh", "gyration", 0.15, "m"),

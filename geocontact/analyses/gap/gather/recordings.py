@@ -14,7 +14,7 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.gap.gather.checks import check_gathered
 from geocontact.analyses.gap.gather.options import GatherOptions
 from geocontact.analyses.gap.gather.recorded_trial import check_recorded
-from geocontact.analyses.motion.checked_trial import turned_plates
+from geocontact.analyses.motion.checked_trial import check_apart, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
@@ -254,6 +254,8 @@ def read(o: GatherOptions) -> Recordings:
         raise InputError("", "`axes`", "has no effect without plates", "leave it out")
     for one in trials.values():
         check_recorded(one.inputs, one.outputs, one.plate, one.source.plates, tables.get("spheres"), turn_of(o.axes))
+    by_file = {str(one.source.plates): one.plate.wrench.force for one in trials.values() if one.plate is not None}
+    check_apart({file: force for file, force in by_file.items() if force.any()}, "trials that are one count twice")
     return Recordings(plan, trials, mats, tables)
 
 

@@ -35,6 +35,7 @@ from geocontact.analyses.sit_to_stand.calibrate.phases import (
 )
 from geocontact.analyses.sit_to_stand.calibrate.show import calibration_page
 from geocontact.analyses.sit_to_stand.exports import write_motion, write_standing_model, write_strap_case
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_sites
 from geocontact.analyses.sit_to_stand.rmsd_by_trial import rmsd_by_trial
 from geocontact.analyses.sit_to_stand.show import PARTS, standing_curves
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
@@ -72,7 +73,10 @@ PUT_IN = ("force", "centre")
 
 def read(o: StandingCalibrateOptions) -> StandingUpTrials:
     """Everything in the study."""
-    return standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    if trials.exoskeleton:
+        doubt_sites(trials)
+    return trials
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

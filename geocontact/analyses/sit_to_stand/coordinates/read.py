@@ -15,8 +15,7 @@ from geocontact.analyses.frame.collector import add_input
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
-from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
-from geocontact.analyses.sit_to_stand.standing_trials import JOINTS, UPRIGHT
+from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, UPRIGHT, doubt_bending
 from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST, require_one_clock
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
@@ -97,7 +96,7 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
 
 def _stands_at(time: Times, moved: PlanarMotion) -> float | None:
     """When the person stands upright, at the end or at the beginning [s]; None where neither is so."""
-    upright = [k for k in (-1, 0) if np.abs(moved.q[k, JOINTS]).max() < UPRIGHT]
+    upright = [k for k in (-1, 0) if np.abs(moved.q[k, ANGLES]).max() < UPRIGHT]
     return float(time[upright[0]]) if upright else None
 
 

@@ -26,7 +26,7 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import counted
 from geocontact.analyses.sit_to_stand.movements.options import StandingMovementsOptions
-from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending, doubt_plates
 from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_recordings import chair_force, motion_of_file, require_one_clock
 from geocontact.data.errors import InputError
@@ -44,6 +44,7 @@ from geocontact.standing_up.movements import (
     movements_of,
 )
 from geocontact.standing_up.trial_forces import SEATED
+from geocontact.trial_checks.recorded import FootPlate
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Limit, Shade
 from geocontact.view.page.content import Section
 from geocontact.view.page.tables import frame_table
@@ -83,9 +84,13 @@ def read(o: StandingMovementsOptions) -> StandingRecording:
     plates = read_force_plates(o.plates, o.c3d_unit)
     add_input("`plates`", o.plates, plates=len(plates))
     plate = plate_named(plates, o.chair, o.plates, "`chair`")
-    if o.feet is not None and plate_named(plates, o.feet, o.plates, "`feet`") is plate:
+    under = None if o.feet is None else plate_named(plates, o.feet, o.plates, "`feet`")
+    if under is plate:
         raise InputError("", "`feet`", f"{o.feet} is the chair's plate as well", "name each plate once")
     require_one_clock(o.plates, plate, time)
+    if under is not None:
+        plates_there = tuple(FootPlate(each, str(o.plates)) for each in (under, plate))
+        doubt_plates(plates_there, (time, q), o.height, o.coordinates)
     return StandingRecording(time, height, np.interp(time, plate.time, chair_force(plate)))
 
 
