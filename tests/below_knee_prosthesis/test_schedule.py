@@ -15,6 +15,7 @@ from geocontact.below_knee_prosthesis.schedule import (
     never_reached,
     strides_by,
 )
+from tests.below_knee_prosthesis.model.legs import a_leg
 
 STANCES = [(0.2, 0.9), (1.3, 2.0), (2.4, 3.1)]
 """Touch-down and toe-off [s]: 0.4 s of swing between."""
@@ -28,13 +29,12 @@ def motion(*speeds: float) -> LegMotion:
     speed = np.array(speeds)[np.searchsorted(ends[1:-1], time, side="right")]
     values = np.zeros((len(time), len(RECORDED)))
     values[:, RECORDED.index("pelvis_tx")] = np.concatenate([[0.0], np.cumsum(0.001 * speed[:-1])])
-    leg: Any = None
-    return LegMotion(leg, time, values)
+    return LegMotion(a_leg(), time, values)
 
 
 def schedule(by: Literal["stride", "time", "speed", "phase"], *rows: tuple[float, str]) -> FulcrumSchedule:
     places = {"low": LOW, "high": HIGH}
-    return FulcrumSchedule(by, tuple(ScheduledPlace(start, name, places[name]) for start, name in rows))
+    return FulcrumSchedule(by, tuple(ScheduledPlace(float(start), name, places[name]) for start, name in rows))
 
 
 def names(by: Literal["stride", "time", "speed", "phase"], *rows: tuple[float, str], speeds: Any = (1.2,)) -> list[str]:

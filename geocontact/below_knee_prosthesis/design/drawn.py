@@ -20,8 +20,9 @@ loading, knee, hip, metabolic proxy and of another alignment they were not.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -371,6 +372,6 @@ def drawn_foot(
 
 def _widest(tasks: list[FootTask]) -> FootTask:
     """Pitches and loads of all draws of a stance as one, so that one table serves them."""
-    over_time = ("time", "pitch", "thigh", "load", "forward", "pelvis", "needed")
+    over_time = [each.name for each in fields(FootTask) if re.search(r'" ?t\b', str(each.type))]  # first axis of a hint
     curves: dict[str, Any] = {name: np.concatenate([getattr(each, name) for each in tasks]) for name in over_time}
     return replace(tasks[0], **curves)
