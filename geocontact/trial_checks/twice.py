@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
 
@@ -96,25 +96,47 @@ def held_steps(places: Float[np.ndarray, "n m 3"], fewest: int) -> dict[int, Boo
     return found
 
 
+def _with_lines(places: Float[np.ndarray, "n m 3"]) -> list[int]:
+    """Markers with `STRAIGHT` even samples on end; every `STRAIGHT`-th is looked at first, then those beside it."""
+
+    def even(at: Int[np.ndarray, "*some"], marker: Int[np.ndarray, "*some"]) -> Bool[np.ndarray, "*some"]:
+        bent = places[at, marker] - 2.0 * places[at + 1, marker] + places[at + 2, marker]
+        return np.asarray(np.linalg.norm(bent, axis=-1) < EVEN)
+
+    at = np.arange(0, len(places) - 2, STRAIGHT)
+    x = places[:, :, 0]
+    row, marker = np.nonzero(np.abs(x[at] - 2.0 * x[at + 1] + x[at + 2]) < EVEN)
+    made = np.bincount(marker, minlength=places.shape[1]) > MOSTLY_EVEN * len(at)  # by a model, everywhere
+    row, marker = row[~made[marker]], marker[~made[marker]]
+    there = even(at[row], marker)
+    first, marker = at[row[there]], marker[there]
+    beside = first[:, None] + np.arange(1 - STRAIGHT, STRAIGHT)
+    inside = (beside >= 0) & (beside < len(places) - 2)
+    along = even(np.clip(beside, 0, len(places) - 3), np.broadcast_to(marker[:, None], beside.shape)) & inside
+    runs = np.lib.stride_tricks.sliding_window_view(along, STRAIGHT, axis=1).all(axis=2).any(axis=1)
+    return [int(k) for k in np.unique(marker[runs])]
+
+
 def straight_gaps(trial: TrialInputs) -> Iterator[Contradiction]:
     """A marker that goes along a straight line at one speed, with a kink where it begins and where it ends."""
     seen = trial.markers
     if seen is None or len(seen) < STRAIGHT + 2:
         return
-    bent = np.nan_to_num(np.linalg.norm(np.diff(seen.positions, n=2, axis=0), axis=2), nan=np.inf)
-    for k, name in enumerate(seen.names):
-        even = bent[:, k] < EVEN
+    for k in _with_lines(seen.positions):
+        name = seen.names[k]
+        second = np.linalg.norm(np.diff(seen.positions[:, k], n=2, axis=0), axis=1)
+        bent = np.nan_to_num(second, nan=np.inf)
+        even = bent < EVEN
         if even.mean() > MOSTLY_EVEN:
             continue
         edges = np.flatnonzero(np.diff(np.r_[False, even, False].astype(int)))
-        for start, stop in zip(edges[::2], edges[1::2], strict=True):
-            kinks = bent[[max(start - 1, 0), min(stop, len(bent) - 1)], k]
-            if stop - start >= STRAIGHT and np.isfinite(kinks).all() and kinks.min() > KINK:
-                what = (
-                    f"{name} goes straight on at one speed from {seen.time[start]:.2f} to {seen.time[stop + 1]:.2f} s"
-                )
-                yield Contradiction(seen.source, "", what, "is a gap filled by a straight line? leave gaps empty")
-                break
+        start, stop = edges[::2], edges[1::2]
+        kinks = bent[np.stack([np.maximum(start - 1, 0), np.minimum(stop, len(bent) - 1)])]
+        lines = np.flatnonzero((stop - start >= STRAIGHT) & np.isfinite(kinks).all(axis=0) & (kinks.min(axis=0) > KINK))
+        if len(lines):
+            first, last = seen.time[start[lines[0]]], seen.time[stop[lines[0]] + 1]
+            what = f"{name} goes straight on at one speed from {first:.2f} to {last:.2f} s"
+            yield Contradiction(seen.source, "", what, "is a gap filled by a straight line? leave gaps empty")
 
 
 def standing_twice(trial: TrialInputs) -> Iterator[Contradiction]:

@@ -11,7 +11,15 @@ import pytest
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.trial_checks.marker_checks import STILL_FOR, standing_still
 from geocontact.trial_checks.recorded import TrialInputs
-from geocontact.trial_checks.twice import LOOKED_AT, SAME, held_steps, markers_at_one_place
+from geocontact.trial_checks.twice import (
+    EVEN,
+    LOOKED_AT,
+    SAME,
+    STRAIGHT,
+    held_steps,
+    markers_at_one_place,
+    straight_gaps,
+)
 
 RATE = 100.0
 
@@ -130,3 +138,27 @@ def test_two_hundred_markers_of_a_long_recording(frames: int) -> None:
         taken.append(time.process_time() - start)
     assert "ahq stays at one place from 40.00 to 40.99 s" in str(found)
     assert min(taken) < 0.2
+
+
+def test_straight_lines_are_found_wherever_they_begin() -> None:
+    """By hand, sample by sample, of lines of 5 to 29 frames in noise of a camera."""
+    rng = np.random.default_rng(0)
+    found = 0
+    for _ in range(60):
+        places = rng.normal(0.0, 2e-3, (300, 5, 3)).cumsum(axis=0)
+        for k in range(3):
+            first = int(rng.integers(1, 260))
+            last = first + int(rng.integers(5, 30))
+            places[first : last + 1, k] = np.linspace(places[first, k], places[last, k], last - first + 1)
+        bent = np.linalg.norm(places[:-2] - 2.0 * places[1:-1] + places[2:], axis=2)
+        runs = ["".join("1" if each < EVEN else "0" for each in column).split("0") for column in bent.T]
+        expected = {f"m{k}" for k, each in enumerate(runs) if max(map(len, each)) >= STRAIGHT}
+        seen = MarkerTrajectories(np.arange(300) / RATE, places, tuple(f"m{k}" for k in range(5)))
+        said = {
+            str(each).partition(" goes straight")[0].rpartition(" ")[2]
+            for each in straight_gaps(TrialInputs(markers=seen))
+        }
+        assert said <= expected
+        found += len(said)
+        assert len(expected) - len(said) <= 1  # a kink of less than 1.5 mm by chance
+    assert found > 60
