@@ -113,7 +113,7 @@ def _with_lines(places: Float[np.ndarray, "n m 3"]) -> list[int]:
     beside = first[:, None] + np.arange(1 - STRAIGHT, STRAIGHT)
     inside = (beside >= 0) & (beside < len(places) - 2)
     along = even(np.clip(beside, 0, len(places) - 3), np.broadcast_to(marker[:, None], beside.shape)) & inside
-    runs = np.lib.stride_tricks.sliding_window_view(along, STRAIGHT, axis=1).all(axis=2).any(axis=1)
+    runs = np.any(np.all(np.lib.stride_tricks.sliding_window_view(along, STRAIGHT, axis=1), axis=2), axis=1)
     return [int(k) for k in np.unique(marker[runs])]
 
 
