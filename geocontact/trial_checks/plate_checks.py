@@ -35,7 +35,7 @@ SPEED, IMPULSE = 0.5, 0.02
 """m/s, from which somebody walks; share of the body's weight that braking or propulsion has in the mean of half a
 step."""
 LITTLE = 0.04
-"""Of the load, by which the force along the walk changes from one half of a step to the other at least; three people
+"""Share of the load by which the force along the walk changes from one half of a step to the other; three people
 who walk have 0.17 to 0.29."""
 CLIPPED = 0.05
 """Share of a step's samples in which the force is at its largest value, no digit changing; noise never is."""
