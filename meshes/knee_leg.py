@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from meshes.leg_files import GRAVITY, PLACES, RATE, SWING, body, custom_joint, joint, marker, motion_text
+from meshes.leg_files import PLACES, RATE, SWING, body, custom_joint, document, joint, marker, motion_text
 
 MASSES = {"pelvis": 10.0, "femur_r": 8.0, "femoral_component": 0.3, "tibia_r": 4.0, "foot_r": 1.0}
 """Masses of the generic bodies [kg]; that of a person is shared among them alike."""
@@ -89,21 +89,7 @@ def leg_text(thigh: float, shank: float, mass: float) -> str:
         )
     )
     markers = "\n".join(marker(name, k, sizes.get(name, 1.0)) for name in MARKED for k in range(len(PLACES)))
-    return f"""<?xml version="1.0"?>
-<OpenSimDocument Version="40000"><Model name="synthetic_knee_leg">
-<credits>Synthetic sample leg of geocontact: no subject, no patient.</credits>
-<gravity>0 -{GRAVITY} 0</gravity><Ground name="ground"/>
-<BodySet><objects>
-{bodies}
-</objects></BodySet>
-<JointSet><objects>
-{joints}
-</objects></JointSet>
-<MarkerSet><objects>
-{markers}
-</objects></MarkerSet>
-</Model></OpenSimDocument>
-"""
+    return document("synthetic_knee_leg", bodies, joints, markers)
 
 
 def _swing(person: ImplantedPerson) -> str:

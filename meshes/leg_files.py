@@ -22,13 +22,10 @@ SWING = {"hip_z": (10.0, 25.0, 0.0), "knee": (-35.0, 30.0, 0.25), "ankle": (0.0,
 """Mean, amplitude [deg] and phase [cycles] of what moves."""
 
 
-def leg_model() -> str:
-    """OpenSim 4 model: x forward, y up, z to the right."""
-    bodies = "\n".join(body(*each) for each in BODIES.items())
-    joints = "\n".join(joint(*each) for each in JOINTS)
-    markers = "\n".join(marker(name, k) for name in BODIES for k in range(len(PLACES)))
+def document(name: str, bodies: str, joints: str, markers: str) -> str:
+    """OpenSim 4 model of these parts, each already written."""
     return f"""<?xml version="1.0"?>
-<OpenSimDocument Version="40000"><Model name="synthetic_leg">
+<OpenSimDocument Version="40000"><Model name="{name}">
 <credits>Synthetic sample leg of geocontact: no subject, no patient.</credits>
 <gravity>0 -{GRAVITY} 0</gravity><Ground name="ground"/>
 <BodySet><objects>
@@ -42,6 +39,14 @@ def leg_model() -> str:
 </objects></MarkerSet>
 </Model></OpenSimDocument>
 """
+
+
+def leg_model() -> str:
+    """OpenSim 4 model: x forward, y up, z to the right."""
+    bodies = "\n".join(body(*each) for each in BODIES.items())
+    joints = "\n".join(joint(*each) for each in JOINTS)
+    markers = "\n".join(marker(name, k) for name in BODIES for k in range(len(PLACES)))
+    return document("synthetic_leg", bodies, joints, markers)
 
 
 def leg_swing() -> str:
