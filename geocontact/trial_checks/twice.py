@@ -28,6 +28,8 @@ MOVES = (1e-2, 1e-3)
 STRAIGHT, EVEN, KINK, MOSTLY_EVEN = 10, 3e-5, 1.5e-3, 0.75
 """Frames of a straight line at one speed; m, of its second differences, those of places rounded to 0.01 mm, and of
 those at its ends, noise of cameras being 0.1 mm and more; share of such frames in a course that a model made."""
+FEW = 64
+"""Samples by which a course that is even along x is judged in all three directions, before every frame is."""
 
 
 def same_recordings(recordings: Mapping[str, Float[np.ndarray, "*shape"]]) -> list[tuple[str, str]]:
@@ -106,8 +108,11 @@ def _with_lines(places: Float[np.ndarray, "n m 3"]) -> list[int]:
     at = np.arange(0, len(places) - 2, STRAIGHT)
     x = places[:, :, 0]
     row, marker = np.nonzero(np.abs(x[at] - 2.0 * x[at + 1] + x[at + 2]) < EVEN)
-    made = np.bincount(marker, minlength=places.shape[1]) > MOSTLY_EVEN * len(at)  # by a model, everywhere
-    row, marker = row[~made[marker]], marker[~made[marker]]
+    smooth = np.flatnonzero(np.bincount(marker, minlength=places.shape[1]) > MOSTLY_EVEN * len(at))
+    few = at[:: max(len(at) // FEW, 1)]
+    share = even(np.repeat(few[:, None], len(smooth), axis=1), np.tile(smooth, (len(few), 1))).mean(axis=0)
+    kept = ~np.isin(marker, smooth[share > 0.5 * (1.0 + MOSTLY_EVEN)])  # those that a model made stay out
+    row, marker = row[kept], marker[kept]
     there = even(at[row], marker)
     first, marker = at[row[there]], marker[there]
     beside = first[:, None] + np.arange(1 - STRAIGHT, STRAIGHT)

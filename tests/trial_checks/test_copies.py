@@ -140,6 +140,17 @@ def test_two_hundred_markers_of_a_long_recording(frames: int) -> None:
     assert min(taken) < 0.2
 
 
+@pytest.mark.parametrize("still", range(3), ids="xyz")
+def test_a_straight_gap_is_found_in_a_planar_movement(still: int) -> None:
+    """A coordinate that never changes does not make the whole course one of a model."""
+    places = np.random.default_rng(0).normal(0.0, 5e-3, (300, 2, 3)).cumsum(axis=0)
+    places[:, :, still] = 0.5
+    places[100:131, 0] = np.linspace(places[100, 0], places[130, 0], 31)
+    seen = MarkerTrajectories(np.arange(300) / RATE, places, ("a", "b"))
+    (said,) = straight_gaps(TrialInputs(markers=seen))
+    assert "a goes straight on at one speed from 1.00 to 1.30 s" in str(said)
+
+
 def test_straight_lines_are_found_wherever_they_begin() -> None:
     """By hand, sample by sample, of lines of 5 to 29 frames in noise of a camera."""
     rng = np.random.default_rng(0)
