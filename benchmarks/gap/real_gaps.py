@@ -20,6 +20,10 @@ from benchmarks.knee.paper_004 import geocontact
 from benchmarks.machine import machine, versions
 from benchmarks.prosthesis import real_foot
 from benchmarks.prosthesis.real_foot import WALKS, Placement
+from geocontact.data.errors import InputError
+from geocontact.gap.case.admission import admitted
+from geocontact.io.cases.gap_case import read_gap_case
+from geocontact.systems.catalogue import system_of
 
 HERE = Path(__file__).resolve().parents[1]
 KNEES = {
@@ -88,13 +92,32 @@ def place(work: Path, subject: str, assumption: str) -> Path:
     return work / "cases" / re.sub(r"[^\w.]+", "_", f"{subject} {assumption}")
 
 
+def set_aside(work: Path) -> dict[str, str]:
+    """Cases that a diagnosis refuses, such as one step held out, and why; they are moved to `work/refused`."""
+    refused: dict[str, str] = {}
+    (work / "refused").mkdir()
+    for folder in sorted((work / "cases").iterdir()):
+        case = read_gap_case(folder)
+        try:
+            admitted(case, system_of(case))
+        except InputError as error:
+            refused[folder.name] = str(error)
+            folder.rename(work / "refused" / folder.name)
+    return refused
+
+
 def diagnosed(data: Path, work: Path, stated_only: bool = False) -> dict[str, dict[str, Any]]:
-    """What the diagnosis says of each case, and how the case was made."""
+    """What the diagnosis says of each case, or why it refuses it, and how the case was made."""
     made = build(data, work, stated_only)
+    refused = set_aside(work)
     geocontact("gap", "diagnose", work / "cases", "--many", "--bare", "--workers", "1", "--out", work / "said")
     for subject, variants in made.items():
         for name, about in variants.items():
-            file = work / "said" / place(work, subject, name).name / "diagnosis.json"
+            here = place(work, subject, name).name
+            if here in refused:
+                variants[name] = {"made": about, "refused": refused[here]}
+                continue
+            file = work / "said" / here / "diagnosis.json"
             said = json.loads(file.read_text(encoding="utf-8"))
             variants[name] = {"made": about, **{key: said[key] for key in KEPT}}
     return made
@@ -110,7 +133,7 @@ def main() -> None:
     text = json.dumps(report, indent=1, ensure_ascii=False)
     for subject, variants in found.items():
         for name, said in variants.items():
-            print(f"{subject}, {name}: {said['verdict']} {', '.join(said['effects'])}")
+            print(f"{subject}, {name}: {said.get('refused') or ' '.join([said['verdict'], *said['effects']])}")
     (options.out / "real_gaps.json").write_text(text + "\n", encoding="utf-8")
 
 

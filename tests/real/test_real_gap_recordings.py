@@ -18,7 +18,7 @@ from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.systems.catalogue import system_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
-SUBJECTS = ("knee", "overground", "treadmill")
+SUBJECTS = ("knee", "treadmill")
 
 
 @pytest.fixture(scope="module")
@@ -54,8 +54,10 @@ def test_steps_are_those_of_the_plates(said: dict[str, dict[str, Any]], work: Pa
     assert len(said["overground"]["made"]["samples"]) == 3 and len(said["treadmill"]["made"]["samples"]) == 4
     assert 1.0 < said["treadmill"]["made"]["belt_m_per_s"] < 1.3
     assert said["overground"]["made"]["belt_m_per_s"] == 0.0
-    for subject in ("overground", "treadmill"):
-        case = read_gap_case(real_gaps.place(work, subject, "as stated"))
+    cases = {name: real_gaps.place(work, name, "as stated") for name in ("overground", "treadmill")}
+    cases["overground"] = work / "refused" / cases["overground"].name
+    for place in cases.values():
+        case = read_gap_case(place)
         for trial in (*case.calibration, *case.evaluation):
             force, cop = trial.column("force_y"), trial.column("cop_x")
             steady = force > 300.0
@@ -64,6 +66,11 @@ def test_steps_are_those_of_the_plates(said: dict[str, dict[str, Any]], work: Pa
             assert np.abs(trial.column("y")[np.abs(trial.column("pitch")) < 0.02]).max() < 0.012, (
                 "flat is on the ground"
             )
+
+
+@pytest.mark.slow
+def test_one_step_held_out_is_refused(said: dict[str, dict[str, Any]]) -> None:
+    assert "1 trial held out" in said["overground"]["refused"] and "verdict" not in said["overground"]
 
 
 @pytest.mark.slow
