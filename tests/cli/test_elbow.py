@@ -15,6 +15,7 @@ import geocontact as gc
 from geocontact.analyses.misalignment.law_numbers import PER_SI
 from geocontact.analyses.misalignment.simulate.result import SEED, TRIALS, USUAL
 from geocontact.axis_misalignment.synthetic import PAPER
+from geocontact.gap.case.admission import admitted
 from tests.analyses.misalignment.trials import free, locked, quietly
 from tests.cli.calls import Call, call, done, inventory, written
 from tests.cli.elbow_calls import elbow, same_csv, unpictured
@@ -283,12 +284,13 @@ def test_recordings_become_a_gap_case(tmp_path: Path) -> None:
     result = done(elbow("simulate", tmp_path, *QUICK[:-1], 4, "--stroke-mm=-10:60", "--case"))
     case = gc.read_gap_case(result.folder / "case")
     assert [each.name for each in (*case.calibration, *case.evaluation)] == [f"locked_{k}" for k in range(1, 5)]
-    assert len(case.calibration) == 3 and [each.name for each in case.parameters] == ["k", "x", "y"]
+    assert len(case.calibration) == 2 and [each.name for each in case.parameters] == ["k", "x", "y"]
     assert case.constants == pytest.approx({"l": 0.169, "z": 0.127})
     table = pd.read_csv(result.folder / "locked_1.csv", comment="#")
     np.testing.assert_allclose(case.calibration[0].column("beta"), np.radians(table["beta [deg]"]), rtol=1e-8)
     np.testing.assert_allclose(case.calibration[0].column("force"), table["force [N]"], rtol=1e-8)
     system = gc.system_of(case)
+    assert len(admitted(case, system).evaluation) == 2, "a diagnosis takes it"
     numbers = {each.name: each.start for each in case.parameters} | dict(case.constants)
     off = system.simulate(case.evaluation[0], numbers)[:, 0] - case.evaluation[0].column("force")
     assert np.sqrt(np.mean(off**2)) < 2.0, "what is left is what the person adds"

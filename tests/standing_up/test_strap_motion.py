@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import geocontact as gc
 from geocontact.analyses.sit_to_stand.exports import motion_table, write_strap_case
@@ -72,3 +74,14 @@ def test_written_files_gather_to_a_case(tmp_path: Path) -> None:
     assert held_out.name == "T2" and trials[1].strap is not None
     damped = DAMPING * recorded(held_out.signals, system.inputs).rate[system.inputs.index("thigh_normal")]
     np.testing.assert_allclose(system.simulate(held_out, values)[:, 0] - damped, trials[1].strap, atol=1e-8)
+
+
+@pytest.mark.parametrize(("count", "held"), [(2, 1), (3, 1), (4, 2), (5, 2)])
+def test_two_of_four_trials_are_held_out(tmp_path: Path, count: int, held: int) -> None:
+    """A diagnosis takes two held out at least, and two to fit to."""
+    base = stood_up()
+    trials = [StandingTrial(**{**vars(base), "name": f"T{k}"}) for k in range(count)]
+    write_strap_case(tmp_path, SUBJECT, trials, VALUES)
+    text = tomllib.loads((tmp_path / "gather.toml").read_text())
+    assert text["evaluation"] == [f"T{k}" for k in range(count - held, count)]
+    assert text["calibration"] == [f"T{k}" for k in range(count - held)]

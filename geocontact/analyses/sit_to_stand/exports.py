@@ -230,12 +230,13 @@ def write_strap_case(
     subject: Subject,
     trials: Sequence[StandingTrial],
     values: Mapping[str, float],
-    held_out: int = 1,
+    held_out: int = 2,
     damping: float = DAMPING,
 ) -> None:
     """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
 
-    Nothing for fewer trials with the thigh's strap than that and one more.
+    Of fewer than four trials with the thigh's strap at most half are held out, and nothing is written of one: a
+    diagnosis needs two to fit to and two held out.
 
     Parameters
     ----------
@@ -245,8 +246,9 @@ def write_strap_case(
         Of its dashpot [N s/m].
     """
     trials = [trial for trial in trials if trial.strap is not None and np.isfinite(trial.strap).all()]
-    if len(trials) <= held_out:
+    if len(trials) < 2:
         return
+    held_out = min(held_out, len(trials) // 2)
     folder.mkdir(parents=True, exist_ok=True)
     for trial in trials:
         moved = strap_motion(subject, trial.q, values["strap place"])

@@ -169,12 +169,12 @@ NEAR, STIFFER = 0.05, 4.0  # m, times: how far the bounds are from what was put 
 
 
 def gap_case(trials: Sequence[ElbowRecording], numbers: Mapping[str, float]) -> GapCase:
-    """Two thirds of the trials to fit to, the others held out; k, x, y free, l and z known.
+    """Two thirds of the trials to fit to, the others held out, two at least; k, x, y free, l and z known.
 
     The base model has neither damping nor a stiffness that follows the pressure: where they were put in, they are
     what it lacks. The search begins at the numbers that were put in.
     """
-    count = round(CALIBRATED * len(trials))
+    count = min(round(CALIBRATED * len(trials)), len(trials) - 2)
     made = tuple(_trial(each) for each in trials)
     k, offsets = numbers["k"], [(name, numbers[name]) for name in ("x", "y")]
     free = (
