@@ -120,8 +120,7 @@ def answered(lot: Lot, folder: Path) -> Worked:
         planted = drawn(lot)
     except NotFoundError as error:
         return Worked(lot, "", None, {}, trouble=(str(error),))
-    label, name = plain(planted.label.as_dict()), planted.case.name
-    label |= plain(what_can_be_told(planted))
+    label, name = label_of(planted), planted.case.name
     write_gap_case(planted.case, folder / name)
     began = time.process_time()
     try:
@@ -131,6 +130,14 @@ def answered(lot: Lot, folder: Path) -> Worked:
         return Worked(lot, name, label, {"diagnosis": failed(label)}, trouble=trouble)
     cpu = time.process_time() - began
     return Worked(lot, name, label, {"diagnosis": said | {"seconds": cpu}}, cpu=cpu)
+
+
+def label_of(planted: Any) -> dict[str, Any]:
+    """The truth of a case as JSON takes it, with what candidates leave of it."""
+    from geocontact.analyses.frame.json_file import plain
+
+    label: dict[str, Any] = plain(planted.label.as_dict())
+    return label | plain(what_can_be_told(planted))
 
 
 def what_can_be_told(planted: Any) -> dict[str, Any]:
