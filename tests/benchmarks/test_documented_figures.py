@@ -646,6 +646,8 @@ LABORATORIES = {
     "confidently wrong, all cases": "confidently_wrong",
     "reductions inside ci95": "coverage",
 }
+BESIDE = ("false_alarms", "large_named", "large_wrong", "pair_both", "coverage")
+"""Figures of the run at home and of the regressions, in the order of the page."""
 LABORATORY_NUMBERS = {
     "mean error of a reduction": "reduction_error",
     "CPU seconds per case, median": "seconds_median",
@@ -670,6 +672,19 @@ def test_kinds_of_laboratories() -> None:
         for label, key in LABORATORY_NUMBERS.items():
             assert tables[label][place] == f"{numbers[key]:.3g}", label
         assert f"seed {run['asked']['seed']}, commit {run['commit']} (" in page
+    home = results("gap_laboratories_home_5")
+    own = [share(home["figures"]["all"]["shares"][key]) for key in BESIDE]
+    begin = f"(seed {home['asked']['seed']}, commit {home['commit']}, `gap_laboratories_home_5.json`): "
+    words = "false alarms {}, named {}, wrongly {}, both {}, reductions {}; no better."
+    assert begin + words.format(*own) in page
+    beside = results("gap_laboratories_fresh_6_regression")
+    assert beside["asked"] == run["asked"]
+    pairs = [
+        [share(beside["figures"][who]["shares"][key]) for who in ("regression", "regression_aware")]
+        for key in (*BESIDE, "pair_one")
+    ]
+    assert "; ".join(", ".join(pair) for pair in pairs[:-1]) + "." in page
+    assert f"more often: {', '.join(pairs[-1])}." in page
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     for words, key in README.items():
         assert words.format(f"{shares[key]['hits']} of {shares[key]['count']}") in readme, words
