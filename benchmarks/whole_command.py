@@ -51,12 +51,13 @@ def timed(where, name, what):
 
     setattr(owner, name, call)
 
-for each in json.loads(sys.argv[1]):
-    timed(*each)
-code = run(sys.argv[2:])
-taken["all"] = time.process_time()
-sys.stderr.write("\\n" + json.dumps(taken) + "\\n")
-sys.exit(code)
+if __name__ == "__main__":  # processes of a study import this file
+    for each in json.loads(sys.argv[1]):
+        timed(*each)
+    code = run(sys.argv[2:])
+    taken["all"] = time.process_time()
+    sys.stderr.write("\\n" + json.dumps(taken) + "\\n")
+    sys.exit(code)
 """
 
 AREA = (
