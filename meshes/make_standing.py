@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from geocontact.standing_up.chain import Subject
-from meshes.standing_files import synthetic_files, unloaded_files
+from meshes.standing_files import shipped_description, synthetic_files, unloaded_files
 from meshes.standing_study import synthetic_study
 
 FOLDERS = {
@@ -32,7 +32,8 @@ def standing_files() -> dict[str, bytes]:
         for folder, what in FOLDERS.items()
         for name, text in synthetic_files(synthetic_study(**what)).items()
     }
-    return files | {f"{ALONE}/{name}": text.encode("ascii") for name, text in unloaded_files(Subject()).items()}
+    alone = {**unloaded_files(Subject()), "exoskeleton.toml": shipped_description()}
+    return files | {f"{ALONE}/{name}": text.encode("ascii") for name, text in alone.items()}
 
 
 def main() -> None:

@@ -40,6 +40,7 @@ FOLDER_KINDS = {
     "leg": "model",
     "swing": "motion",
     "force": "recording",
+    "exoskeleton": "study",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
 FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "knee_leg_*", "overhead_*", "standing_up*", "whole_body")

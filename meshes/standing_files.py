@@ -7,9 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.io.recordings.exoskeleton_description import EXOSKELETON, ExoskeletonFile, exoskeleton_toml
 from geocontact.standing_up.chain import Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.trials import StandingNoise, StandingTrial
+from geocontact.standing_up.worn_device import SHIPPED_NUMBERS
 from meshes.standing_study import SyntheticStudy
 from meshes.standing_unloaded import synthetic_unloaded
 
@@ -41,6 +43,13 @@ def unloaded_files(subject: Subject) -> dict[str, str]:
         "unloaded_coordinates.sto": _storage("synthetic exoskeleton alone, coordinates", angles, 4, "yes"),
         "unloaded_motors.sto": _storage("synthetic exoskeleton alone, motors", torques, 3, "no"),
     }
+
+
+def shipped_description() -> str:
+    """Text of the description of the exoskeleton that counts where none is given."""
+    units = {name: known.unit.si for name, known in EXOSKELETON.items()}
+    head = "# The exoskeleton of sit-to-stand where no other is described. Only the dashpots of straps are published.\n"
+    return head + exoskeleton_toml(ExoskeletonFile("shipped exoskeleton", SHIPPED_NUMBERS), units)
 
 
 def _worn(

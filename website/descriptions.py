@@ -20,6 +20,7 @@ from geocontact.data.plausible import Plausible
 from geocontact.io.cases.gathering import Sources
 from geocontact.io.documents import Document, Holds, Listed, Some, WithUnit
 from geocontact.io.recordings.contact_pairs import PairsDescription
+from geocontact.io.recordings.exoskeleton_description import ExoskeletonDescription
 from geocontact.io.recordings.foot_description import FootDescription
 from geocontact.io.recordings.gait_study import GaitStudy
 from geocontact.io.recordings.overhead_study import OverheadStudy
@@ -118,6 +119,12 @@ FILES = (
         "Standing up",
         "`geocontact sit-to-stand calibrate`, `compare`, `predict`, `design` ([guide](../how-to/sit_to_stand.md))",
         StandingStudy,
+        {},
+    ),
+    DescribedFile(
+        "A leg exoskeleton",
+        "`--device` of `geocontact sit-to-stand calibrate`, `predict`, `compare`, `design`, `device`",
+        ExoskeletonDescription,
         {},
     ),
 )

@@ -18,7 +18,6 @@ from geocontact.dynamics.sphere_contact import together
 from geocontact.standing_up.chain import EVERY_PLANTED, Subject
 from geocontact.standing_up.exoskeleton import (
     DAMPING,
-    SHIFT,
     STRAP_PLANTED,
     Strap,
     with_exoskeleton,
@@ -60,7 +59,7 @@ class Pad:
         self.site = site
         self.person, device = tree.bodies[site.person], tree.bodies[site.device]
         own = mtimes(self.person.rotation, vertcat(0.0, height, 0.0))
-        other = mtimes(device.rotation, vertcat(0.0, height - (SHIFT if site.higher else 0.0), 0.0))
+        other = mtimes(device.rotation, vertcat(0.0, height - (site.above), 0.0))
         gap = device.place + other - self.person.place - own
         speed = device.speed + cross(device.spin, other) - self.person.speed - cross(self.person.spin, own)
         self.at = device.place + other

@@ -4,7 +4,7 @@ Both legs are one planar chain, here as for the person: masses of the exoskeleto
 numbers of a strap at thigh or shank are those of one leg, as a mat on one leg sees it; two of them act in parallel
 between the chains. That is the only place where a 2 enters besides the masses; the pelvis has one module. All numbers
 of the exoskeleton are invented. A hinge of the exoskeleton lies where the person's does, but for the knee, which is
-higher by `SHIFT`.
+higher by `WornDevice.knee_above`.
 
 As in the study, where nothing is known yet of the forces between the two: inverse dynamics of this chain has the
 torques that person and exoskeleton have together at ankle, knee and hip.
@@ -37,7 +37,7 @@ from geocontact.standing_up.chain import (
     leg_chain,
 )
 from geocontact.standing_up.standing_model import ModelConstants, StandingModel
-from geocontact.standing_up.strap_sites import SHIFT, THIGH_STRAP, ContactParameter, StrapSite, searched
+from geocontact.standing_up.strap_sites import THIGH_STRAP, ContactParameter, StrapSite, searched
 from geocontact.standing_up.worn_device import PARTS, WornDevice
 
 if TYPE_CHECKING:
@@ -48,8 +48,6 @@ LEGS = THIGH_STRAP.count
 """Straps in parallel at the thigh."""
 DAMPING, TURNING_DAMPING = THIGH_STRAP.damping, THIGH_STRAP.turning_damping
 """Damping of one strap [N s/m], [N m s/rad]."""
-HEIGHT = 0.25
-"""Height of the module [m]."""
 EXO_JOINTS = ("exo_ankle", "exo_knee", "exo_hip")
 STRAP_PARAMETERS = THIGH_STRAP.parameters
 """Parameters of one strap at the thigh: stiffness across it, along it and in turning, and its distance from the
@@ -110,7 +108,14 @@ def two_chains(subject: Subject) -> Multibody:
 def part_lengths(subject: Subject) -> tuple[float, float, float]:
     """Lengths of the exoskeleton's shank, thigh and module, set to a person [m]."""
     segments = subject.segments
-    return segments["shank"].length + SHIFT, segments["thigh"].length - SHIFT, HEIGHT
+    return subject.device.set_to(segments["shank"].length, segments["thigh"].length)
+
+
+def hinges_above(subject: Subject) -> dict[str, float]:
+    """Height of the exoskeleton's hinge over the person's below each segment [m]."""
+    segments = subject.segments
+    knee, hip = subject.device.above(segments["shank"].length, segments["thigh"].length)
+    return {"shank": 0.0, "thigh": knee, "trunk": hip}
 
 
 def _heavier(body: Body, more: float) -> Body:
@@ -262,17 +267,18 @@ def _turn_between(tree: Tree, hinges: int) -> tuple[SX, SX]:
     return between(tree.q), between(tree.u)
 
 
-CARRIES = {"shank": ("exo_shank", 0.0), "thigh": ("exo_thigh", SHIFT), "trunk": ("exo_module", 0.0)}
-"""By segment: part of the exoskeleton, and its origin above the segment's [m]."""
+CARRIES = {"shank": "exo_shank", "thigh": "exo_thigh", "trunk": "exo_module"}
+"""Part of the exoskeleton by segment."""
 
 
 def coupled_chain(subject: Subject) -> Multibody:
     """The person's chain with the masses of both, aligned as with all angles at 0."""
-    chain = leg_chain(subject)
+    chain, above = leg_chain(subject), hinges_above(subject)
     both = {body.name: body for body in two_chains(subject).bodies}
     bodies = [replace(body, mass=both[body.name].mass) for body in chain.bodies]
-    joined = [_joined(body, both[CARRIES[body.name][0]], CARRIES[body.name][1]) if body.name in CARRIES else body
-              for body in bodies]  # fmt: skip
+    joined = [
+        _joined(body, both[CARRIES[body.name]], above[body.name]) if body.name in CARRIES else body for body in bodies
+    ]
     return replace(chain, name="sit to stand, rigidly coupled", bodies=tuple(joined))
 
 

@@ -20,10 +20,12 @@ from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, ContactParameter, StrapSite
 from geocontact.standing_up.trials import SHIPPED, StandingTrial
-from geocontact.standing_up.worn_device import DeviceMasses, WornDevice
+from geocontact.standing_up.worn_device import SHIFT, DeviceMasses, WornDevice
 
 DE_LEVA = "both sides; fractions of mass and height by de Leva (1996), or the person's own"
 OF_BOTH = "of both sides"
+DESCRIBED = ", by the exoskeleton's description"
+BODY_NUMBERS = ("centre", "ahead", "inertia")
 IDENTIFIED = ", by sit-to-stand device"
 WEIGHED = "as the study has it"
 FROM_FILE = "as the file of parameters gives it"
@@ -163,6 +165,12 @@ def _body(body: Body, device: WornDevice | None) -> Iterator[Ran]:
         else:
             mass = ("derived", f"of both sides, {WEIGHED}") if weighed else ("invented", OF_BOTH)
             source, by = ("derived", IDENTIFIED) if device.identified else ("invented", "")
+            if not device.identified and any(f"{part}_{kind}" in device.stated for kind in BODY_NUMBERS):
+                source, by = "derived", f"{DESCRIBED}, else of a uniform rod"
+        if (stated := device.stated.get(f"{part}_mass")) is not None and stated.value == getattr(device.masses, part):
+            whose = f"{DE_LEVA}; with foot plates" if body.name == "foot" else OF_BOTH
+            note = f"{whose}{DESCRIBED}: {stated.source}{stated.note and f', {stated.note}'}"
+            mass = ("derived" if body.name == "foot" else stated.source, note)
     name = f"body {body.name}"
     yield Ran(f"{name} mass", body.mass, "kg", *mass)
     for axis, value in zip("xy", body.centre[:2], strict=True):
@@ -203,4 +211,5 @@ def _strap(site: StrapSite) -> Iterator[Ran]:
         value = float(getattr(site, what))
         source: Source = "paper" if value == paper else "derived"
         yield Ran(f"{name} {what}", value, unit, source, note if value == paper else f"{note}, as the study has it")
-    yield Ran(f"{name} above", site.above, "m", "invented", "the exoskeleton's hinge over the person's")
+    own: Source = "invented" if site.above in (0.0, SHIFT) else "derived"
+    yield Ran(f"{name} above", site.above, "m", own, "the exoskeleton's hinge over the person's")

@@ -14,6 +14,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.stats import norm
 
+from geocontact.standing_up.worn_device import SHIFT
+
 Vector = Float[np.ndarray, " p"]
 
 
@@ -98,8 +100,6 @@ LEGS, MODULES = 2, 1
 """Straps in parallel at thigh and shank, and at the pelvis."""
 DAMPING, TURNING_DAMPING = 10.0, 0.1
 """Damping of one strap [N s/m], [N m s/rad]: the study's, held."""
-SHIFT = 0.01
-"""The exoskeleton's knee above the person's [m]."""
 SPRINGS = ("normal", "tangential", "turning")
 
 
@@ -113,8 +113,8 @@ class StrapSite:
         Bodies of both chains.
     hinges
         How many hinges of either chain lie between the foot and these bodies.
-    higher
-        Whether the exoskeleton's hinge below is higher than the person's, as its knee is.
+    above
+        Height of the exoskeleton's hinge below over the person's [m]: the strap is so much nearer to it.
     count
         Straps in parallel between the chains.
     parameters
@@ -127,16 +127,11 @@ class StrapSite:
     person: str
     device: str
     hinges: int
-    higher: bool
+    above: float
     count: int
     parameters: tuple[ContactParameter, ...]
     damping: float = DAMPING
     turning_damping: float = TURNING_DAMPING
-
-    @property
-    def above(self) -> float:
-        """Height of the exoskeleton's hinge over the person's [m]: the strap is so much nearer to it."""
-        return SHIFT if self.higher else 0.0
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -155,10 +150,10 @@ def _parameters(prefix: str, place: tuple[float, float, float, float]) -> tuple[
     )
 
 
-THIGH_STRAP = StrapSite("thigh", "thigh", "exo_thigh", 2, True, LEGS, _parameters("", (0.2, 0.03, 0.05, 0.38)))
-SHANK_STRAP = StrapSite("shank", "shank", "exo_shank", 1, False, LEGS, _parameters("shank ", (0.25, 0.03, 0.05, 0.42)))
+THIGH_STRAP = StrapSite("thigh", "thigh", "exo_thigh", 2, SHIFT, LEGS, _parameters("", (0.2, 0.03, 0.05, 0.38)))
+SHANK_STRAP = StrapSite("shank", "shank", "exo_shank", 1, 0.0, LEGS, _parameters("shank ", (0.25, 0.03, 0.05, 0.42)))
 PELVIS_STRAP = StrapSite(
-    "pelvis", "trunk", "exo_module", 3, False, MODULES, _parameters("pelvis ", (0.1, 0.03, -0.05, 0.25))
+    "pelvis", "trunk", "exo_module", 3, 0.0, MODULES, _parameters("pelvis ", (0.1, 0.03, -0.05, 0.25))
 )
 """Strap of the trunk, which stands for the pelvis too."""
 STRAP_SITES = (THIGH_STRAP, SHANK_STRAP, PELVIS_STRAP)

@@ -16,11 +16,16 @@ then it is raised to that of a body with a least radius of gyration, as far as t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.parameter import Number, Source
+
+SHIFT, HEIGHT = 0.01, 0.25
+"""Height of the shipped exoskeleton's knee over the person's, and of its module [m]; invented."""
+NONE = (None, None, None)
 PARTS = ("exo_shank", "exo_thigh", "exo_module")
 """Bodies from the foot upwards; the hinges exo_ankle, exo_knee and exo_hip turn them."""
 TURNS = float(np.radians(1.0))
@@ -76,11 +81,22 @@ class WornDevice:
     masses
         Masses of its bodies.
     parts
-        Bodies in the order of `PARTS`; uniform rods where there are none.
+        Bodies in the order of `PARTS` as they were identified.
     viscous, coulomb
         Friction of its hinges, both sides [N m s/rad], [N m].
     raised
         By which the inertia of each part was raised to be that of a body [kg m^2].
+    knee_above
+        Height of its knee over the person's, where its lengths follow from the person's [m].
+    lengths
+        Its own lengths of shank and thigh [m]; None for what is set to the person.
+    module_height
+        Height of the module [m].
+    along, across, inertias
+        Mass centres above and ahead of the hinge [m], inertias about z through them [kg m^2], in the order of `PARTS`;
+        None for those of a uniform rod. Identified parts count before them.
+    stated
+        Numbers of its description by name, with their sources; empty for the shipped exoskeleton.
     """
 
     masses: DeviceMasses = DeviceMasses()
@@ -88,18 +104,52 @@ class WornDevice:
     viscous: tuple[float, ...] = (0.0, 0.0, 0.0)
     coulomb: tuple[float, ...] = (0.0, 0.0, 0.0)
     raised: tuple[float, ...] = (0.0, 0.0, 0.0)
+    knee_above: float = SHIFT
+    lengths: tuple[float | None, float | None] = (None, None)
+    module_height: float = HEIGHT
+    along: tuple[float | None, ...] = NONE
+    across: tuple[float | None, ...] = NONE
+    inertias: tuple[float | None, ...] = NONE
+    stated: Mapping[str, Number] = field(default_factory=dict, hash=False, compare=False)
 
     @property
     def identified(self) -> bool:
         """Whether its dynamics are those of its own motion."""
         return bool(self.parts)
 
+    @property
+    def rubs(self) -> bool:
+        """Whether its friction is known."""
+        return self.identified or any(self.viscous) or any(self.coulomb)
+
     def bodies(self, lengths: tuple[float, float, float]) -> tuple[DevicePart, ...]:
         """Bodies of these lengths [m]."""
         if self.parts:
             return self.parts
-        rods = zip(self.masses.parts, lengths, strict=True)
-        return tuple(DevicePart(mass, 0.5 * length, 0.0, mass * length**2 / 12.0) for mass, length in rods)
+        rods = zip(self.masses.parts, lengths, self.along, self.across, self.inertias, strict=True)
+        return tuple(
+            DevicePart(
+                mass,
+                0.5 * length if along is None else along,
+                0.0 if across is None else across,
+                mass * length**2 / 12.0 if inertia is None else inertia,
+            )
+            for mass, length, along, across, inertia in rods
+        )
+
+    def set_to(self, shank: float, thigh: float) -> tuple[float, float, float]:
+        """Lengths of `PARTS` on a person whose shank and thigh have these lengths [m]."""
+        own, other = self.lengths
+        below = shank + self.knee_above if own is None else own
+        if other is not None:
+            return below, other, self.module_height
+        return below, thigh - self.knee_above if own is None else shank + thigh - below, self.module_height
+
+    def above(self, shank: float, thigh: float) -> tuple[float, float]:
+        """Heights of its knee and hip over those of a person whose shank and thigh have these lengths [m]."""
+        own, other = self.lengths
+        knee = self.knee_above if own is None else own - shank
+        return knee, 0.0 if other is None else knee + other - thigh
 
     def friction(self, rates: Table) -> Table:
         """Friction of each hinge, against its rate [N m]."""
@@ -107,12 +157,47 @@ class WornDevice:
 
 
 SHIPPED_DEVICE = WornDevice()
+BUILT: Source = "invented"
+SHIPPED_NUMBERS: Mapping[str, Number] = {
+    **{f"{name}_mass": Number(mass, BUILT, "both sides") for name, mass in vars(DeviceMasses()).items()},
+    "knee_above": Number(SHIFT, BUILT, "height of its knee over the person's; shank and thigh are set to the person"),
+    "module_height": Number(HEIGHT, BUILT, "a uniform rod, as shank and thigh are"),
+    "strap_damping": Number(10.0, "paper", "Serrancoli et al. (2019), held there; of one strap"),
+    "strap_turning_damping": Number(0.1, "paper", "Serrancoli et al. (2019), held there; of one strap"),
+    **{
+        f"{hinge}_{kind}": Number(0.0, BUILT, "the study gives torques of its hinges, friction included")
+        for kind in ("viscous", "coulomb")
+        for hinge in ("ankle", "knee", "hip")
+    },
+}
+"""Numbers of the shipped exoskeleton; the study of Serrancoli et al. (2019) prints the straps' dashpots alone."""
+
+
+def device_of(numbers: Mapping[str, Number]) -> WornDevice:
+    """The shipped exoskeleton with these numbers in place of its own."""
+    at = {name: each.value for name, each in {**SHIPPED_NUMBERS, **numbers}.items()}
+    parts, hinges = ("shank", "thigh", "module"), ("ankle", "knee", "hip")
+    return WornDevice(
+        DeviceMasses(**{name: at[f"{name}_mass"] for name in vars(DeviceMasses())}),
+        viscous=tuple(at[f"{hinge}_viscous"] for hinge in hinges),
+        coulomb=tuple(at[f"{hinge}_coulomb"] for hinge in hinges),
+        knee_above=at["knee_above"],
+        lengths=(at.get("shank_length"), at.get("thigh_length")),
+        module_height=at["module_height"],
+        along=tuple(at.get(f"{part}_centre") for part in parts),
+        across=tuple(at.get(f"{part}_ahead") for part in parts),
+        inertias=tuple(at.get(f"{part}_inertia") for part in parts),
+        stated=dict(numbers),
+    )
 
 
 def identified_device(
-    values: Mapping[str, float], lengths: tuple[float, float, float], masses: DeviceMasses
+    values: Mapping[str, float],
+    lengths: tuple[float, float, float],
+    masses: DeviceMasses,
+    described: WornDevice = SHIPPED_DEVICE,
 ) -> WornDevice:
-    """The exoskeleton of these masses whose motors need what a motion without a person showed.
+    """The exoskeleton of these masses, else as described, whose motors need what a motion without a person showed.
 
     ValueError where the masses leave a part no inertia, and much less than the least.
 
@@ -122,6 +207,8 @@ def identified_device(
         Dynamic parameters by the names of `ExoskeletonDynamics`, in SI.
     lengths
         Lengths of the parts that they were found with [m].
+    described
+        Exoskeleton that has the lengths and sources.
     """
 
     def of(kind: str) -> Float[np.ndarray, " 3"]:
@@ -147,4 +234,4 @@ def identified_device(
     )
     made = tuple(DevicePart(*(float(each) for each in row)) for row in parts)
     more = tuple(float(each) for each in raised)
-    return replace(WornDevice(masses), parts=made, viscous=viscous, coulomb=coulomb, raised=more)
+    return replace(described, masses=masses, parts=made, viscous=viscous, coulomb=coulomb, raised=more)

@@ -25,6 +25,7 @@ from geocontact.io.cases.case_settings import read_settings
 from geocontact.io.cases.gathering import read_gathering
 from geocontact.io.mats.layout import read_layout
 from geocontact.io.recordings.contact_pairs import read_pairs
+from geocontact.io.recordings.exoskeleton_description import read_exoskeleton
 from geocontact.io.recordings.foot_description import read_foot_description
 from geocontact.io.recordings.gait_study import read_gait_study
 from geocontact.io.recordings.load_cells import read_regression
@@ -473,6 +474,20 @@ rod_y = { value = -20, unit = "mm", source = "invented", note = "drawing" }
 delay = { value = 0.05, unit = "s", source = "invented", note = "slow" }
 """,
         {"name|based_on": WORD, "(numbers|hinges|controller) .* note": ("number", "bool", "list", "table", "date")},
+    ),
+    "exoskeleton": Description(
+        lambda path: read_exoskeleton(path, SOURCES, {"exo_hip Coulomb friction": "N m"}),
+        """name = "prototype"
+[numbers]
+module_mass = { value = 5.2, unit = "kg", source = "derived", note = "weighed" }
+[identified]
+shank_length = { value = 452, unit = "mm" }
+thigh_length = { value = 0.41, unit = "m" }
+by_itself = ["exo_hip Coulomb friction"]
+[identified.parameters]
+"exo_hip Coulomb friction" = { value = 2, unit = "N m" }
+""",
+        {"name": WORD, "numbers .* note": ("number", "bool", "list", "table", "date")},
     ),
     "person": Description(
         lambda path: read_person_file(path, ("upper_arm", "torso")), 'upper_arm = { value = 310, unit = "mm" }\n', {}

@@ -7,7 +7,7 @@ import pytest
 
 from geocontact.dynamics.tree import tree_of
 from geocontact.standing_up.chain import Subject, leg_chain
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, SHIFT, coupled_chain, two_chains
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, coupled_chain, two_chains
 from geocontact.standing_up.exoskeleton_torque import DeviceMotion, human_torque, identified, identified_from, regressor
 
 SUBJECT = Subject()
@@ -69,7 +69,7 @@ def test_person_has_what_the_exoskeleton_leaves() -> None:
     off = human_torque(together, device) - alone
     # the exoskeleton's knee is higher, which moves the torque of what is above it from one hinge to another
     above = 9.0 * (9.81 + np.abs(motion[2]).max() * 1.5 + np.abs(motion[1]).max() ** 2 * 1.5)
-    assert np.abs(off).max() < SHIFT * above, np.abs(off).max()
+    assert np.abs(off).max() < SUBJECT.device.knee_above * above, np.abs(off).max()
 
 
 def test_friction_comes_back_through_the_filter() -> None:

@@ -9,7 +9,7 @@ import pytest
 from casadi import Function, vertcat
 
 from geocontact.dynamics.sphere_contact import StribeckFriction
-from geocontact.standing_up import chain, exoskeleton, strap_sites
+from geocontact.standing_up import chain, exoskeleton
 from geocontact.standing_up import chain as feet
 from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject, feet_on_ground
 from geocontact.standing_up.exoskeleton import strapped
@@ -41,8 +41,6 @@ def unusual(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exoskeleton, "GROUND_LAW", law)
     monkeypatch.setattr(chain, "GRAVITY", np.array([0.3, -9.5, 0.0]))
     monkeypatch.setitem(SHARES["male"], "shank", replace(SHARES["male"]["shank"], gyration=0.3, centre=0.6))
-    for module in (exoskeleton, strap_sites):
-        monkeypatch.setattr(module, "SHIFT", 0.017)
 
 
 def values(model: StandingModel) -> np.ndarray:

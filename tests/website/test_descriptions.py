@@ -62,7 +62,19 @@ def test_a_key_without_a_meaning_is_noticed() -> None:
         list(rows_of(Mute))
 
 
-SAMPLES = ("study", "pairs", "gathering", "population", "overhead", "device", "foot", "socket", "gait", "standing")
+SAMPLES = (
+    "study",
+    "pairs",
+    "gathering",
+    "population",
+    "overhead",
+    "device",
+    "foot",
+    "socket",
+    "gait",
+    "standing",
+    "exoskeleton",
+)
 """Descriptions of `tests.io.test_wrong_kinds` in the order of the page."""
 OTHERS = {"foot": ("foot on foam",)}
 """Further descriptions of the same file, for keys that exclude each other."""

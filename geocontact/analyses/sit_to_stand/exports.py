@@ -22,10 +22,10 @@ from geocontact.io.opensim.osim_writer import ContactBall, write_osim
 from geocontact.io.opensim.storage_writer import write_moco_trajectory, write_storage
 from geocontact.io.text.results import CASES, write_table
 from geocontact.standing_up.chain import COORDINATES, FRICTION, SITS, TURNING, Subject
-from geocontact.standing_up.exoskeleton import DAMPING, EXO_JOINTS, HEIGHT
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.stance import chain_of
 from geocontact.standing_up.strap import StrapForce, StrapMotion, strap_force, strap_motion
-from geocontact.standing_up.strap_sites import StrapSite, sites_of
+from geocontact.standing_up.strap_sites import THIGH_STRAP, StrapSite, sites_of
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.view.surfaces.vtp_series import LineSeries, write_line_series
@@ -150,7 +150,7 @@ def _write_lines(folder: Path, subject: Subject, trial: TrialResult, straps: Str
     poses = chain.poses(trial.model.q)
     person = PERSON[: PERSON.index(last) + 1]
     tops: list[tuple[tuple[str, ...], str, float]] = [(person, last, subject.segments[last].length)]
-    tops += [(EXOSKELETON, "exo_module", HEIGHT)] if straps else []
+    tops += [(EXOSKELETON, "exo_module", subject.device.module_height)] if straps else []
     points, force = [_centre(trial)], {0: _ground(trial)}
     lines: list[tuple[int, ...]] = [(0,)]
     for bodies, last, above in tops:
@@ -231,7 +231,7 @@ def write_strap_case(
     trials: Sequence[StandingTrial],
     values: Mapping[str, float],
     held_out: int = 2,
-    damping: float = DAMPING,
+    site: StrapSite = THIGH_STRAP,
 ) -> None:
     """NAME_strap.csv (displacements), NAME_mat.csv (normal force) and gather.toml, the last `held_out` to evaluate on.
 
@@ -242,8 +242,8 @@ def write_strap_case(
     ----------
     values
         Of the strap's parameters, in SI.
-    damping
-        Of its dashpot [N s/m].
+    site
+        The thigh's strap, with its dashpot.
     """
     trials = [trial for trial in trials if trial.strap is not None and np.isfinite(trial.strap).all()]
     if len(trials) < 2:
@@ -251,7 +251,7 @@ def write_strap_case(
     held_out = min(held_out, len(trials) // 2)
     folder.mkdir(parents=True, exist_ok=True)
     for trial in trials:
-        moved = strap_motion(subject, trial.q, values["strap place"])
+        moved = strap_motion(subject, trial.q, values["strap place"], site)
         write_table(motion_table(trial, moved), folder, f"{trial.name}_strap", CASES)
         mat = pd.DataFrame({"time [s]": trial.time, "thigh_force [N]": trial.strap})
         write_table(mat, folder, f"{trial.name}_mat", CASES)
@@ -262,7 +262,7 @@ def write_strap_case(
         calibration=json.dumps(names[:-held_out]),
         evaluation=json.dumps(names[-held_out:]),
         sources=sources,
-        damping=damping,
+        damping=site.damping,
         stiffness=stiffness,
         least=stiffness / STIFFNESS_ROOM,
         most=stiffness * STIFFNESS_ROOM,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
+from pathlib import Path
 from typing import Annotated, ClassVar
 
 from geocontact.analyses.frame.marks import C3dUnit, Expression
@@ -34,6 +35,8 @@ class StandingSearchOptions(Options):
         Which of the plates' axes are x (forwards), y (up) and z: x,z,-y where the laboratory's z is up.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
+    device
+        The exoskeleton (.toml), such as device.toml of `sit-to-stand device`; that of the study by default.
     """
 
     over_time: ClassVar[bool] = True
@@ -45,6 +48,7 @@ class StandingSearchOptions(Options):
     time_limit: Annotated[float, SEARCH] = 300.0
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
+    device: Path | None = None
 
     def refuse_impossible(self) -> None:
         """Numbers without a search."""

@@ -14,7 +14,7 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.data.motion import Course
 from geocontact.standing_up.chain import COORDINATES, Subject
-from geocontact.standing_up.exoskeleton import HEIGHT, STRAP_PARAMETERS
+from geocontact.standing_up.exoskeleton import STRAP_PARAMETERS
 from geocontact.standing_up.stance import chain_of
 from geocontact.standing_up.trial_result import TrialResult
 from geocontact.standing_up.trials import StandingTrial
@@ -114,7 +114,7 @@ def _lines(subject: Subject, trial: TrialResult, number: int, count: int) -> lis
     device = []
     if worn:
         hinges = [poses[each].translation for each in ("exo_shank", "exo_thigh", "exo_module")]
-        end_of = poses["exo_module"].apply(np.array([0.0, HEIGHT, 0.0]))
+        end_of = poses["exo_module"].apply(np.array([0.0, subject.device.module_height, 0.0]))
         points = np.stack([*hinges, end_of], axis=1) + aside + OUTSIDE
         device = [
             Linkage("exoskeleton", points, _open(4), "model", JOINT, LIMB),

@@ -31,7 +31,8 @@ from geocontact.analyses.sit_to_stand.trial_recordings import (
     site_shear,
     wrench_at,
 )
-from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, joint_torques, person_of, worn_device
+from geocontact.analyses.sit_to_stand.worn_exoskeleton import worn_device, worn_sites
+from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, joint_torques, person_of
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -43,17 +44,28 @@ from geocontact.standing_up.exoskeleton import two_chains
 from geocontact.standing_up.movements import LEAST_RANGE, contradiction, hip_height, movements_of
 from geocontact.standing_up.phases import TRACKS, TRACKS_B
 from geocontact.standing_up.stance import in_stance, load_of_the_rest, off_the_foot, one_leg, smooth
-from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, strap_sites
 from geocontact.standing_up.trial_forces import SEATED, chair_load, seat_contact, seat_off, under_the_feet
 from geocontact.standing_up.trials import CostWeights, StandingNoise, StandingTrial, StandingUpTrials, with_chairs
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, RecordedChannel, TrialInputs
 
 
-def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: str | None = None) -> StandingUpTrials:
-    """Everything in the study; `c3d_unit` is that of .c3d files that have none, `axes` turns plates into x, y up, z."""
+def standing_trials(
+    file: Path, role: str, c3d_unit: str | None = None, axes: str | None = None, device: Path | None = None
+) -> StandingUpTrials:
+    """Everything in the study.
+
+    Parameters
+    ----------
+    c3d_unit
+        Unit of .c3d files that have none.
+    axes
+        What turns plates into x, y up, z.
+    device
+        Description of the exoskeleton, in place of the study's.
+    """
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
-    subject = replace(person_of(study), device=worn_device(study, file))
+    subject = replace(person_of(study), device=worn_device(study, file, device))
     confront_segments(subject, file)
     check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
@@ -65,9 +77,7 @@ def standing_trials(file: Path, role: str, c3d_unit: str | None = None, axes: st
     if study.exoskeleton and "strap" not in tracks:
         raise InputError(file, "tracks", "strap is not among them", "add it, or leave out exoskeleton = true")
     chain = one_leg(subject) if study.one_leg else two_chains(subject) if study.exoskeleton else leg_chain(subject)
-    sites = strap_sites(tuple(site for each in study.trials for site in each.elsewhere))
-    damped = study.straps.get("damping", DAMPING), study.straps.get("turning_damping", TURNING_DAMPING)
-    sites = tuple(replace(site, damping=damped[0], turning_damping=damped[1]) for site in sites)
+    sites = worn_sites(study, file, subject)
     noise = StandingNoise(**study.noise)
     names = tuple(site.name for site in sites[1:])
     _warn_of_copies(study.trials)

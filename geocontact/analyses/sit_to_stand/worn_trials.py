@@ -1,4 +1,4 @@
-"""An exoskeleton as a study describes it: bodies by its own motion, and torques of its hinges in a trial."""
+"""The person of a study, and torques of all joints in a trial."""
 
 from __future__ import annotations
 
@@ -11,24 +11,18 @@ from jaxtyping import Bool, Float
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.io.recordings.device_numbers import read_device_numbers
 from geocontact.io.recordings.standing_study import StandingStudy, StandingTrialFiles
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
-from geocontact.standing_up.exoskeleton import EXO_JOINTS, part_lengths
-from geocontact.standing_up.exoskeleton_torque import parameter_names
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.person_segments import segments_of
-from geocontact.standing_up.worn_device import PARTS, DeviceMasses, WornDevice, identified_device
+from geocontact.standing_up.worn_device import WornDevice
 from geocontact.trial_checks.channel_checks import odd_rate
 
 CUTOFF = 6.0
 """Cut-off of the hinges' angles, whose rates friction follows [Hz]; that of `sit-to-stand device` by default."""
 IDLE = 3.0
 """Torque of motors that do not help, in parts of the noise of a torque, at the most."""
-SAME_LENGTH = 1e-4
-"""Difference in length [m] from which another exoskeleton is meant."""
-BY_ITSELF = 11
-"""Parameters that a motion of all hinges identifies by themselves."""
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
 Used = Bool[np.ndarray, " t"]
@@ -75,45 +69,6 @@ def confront_segments(subject: Subject, study: Path) -> None:
                 reserve(f"{what}: is it in its unit, of one leg, and of this person?", cause=True)
 
 
-def worn_device(study: StandingStudy, file: Path) -> WornDevice:
-    """The exoskeleton of a study; InputError where its numbers are of other lengths or leave no inertia."""
-    masses = DeviceMasses(**study.masses)
-    if study.device is None:
-        return WornDevice(masses)
-    found = read_device_numbers(study.device, parameter_names())
-    add_input("device", study.device, parameters=len(found.values))
-    if abs(found.height - study.height) > 1e-6:
-        what = f"is of an exoskeleton that is set to {found.height:g} m, the person is {study.height:g} m tall"
-        raise InputError(study.device, "height", what, f"run sit-to-stand device with height {study.height:g} m")
-    lengths = part_lengths(person_of(study))
-    set_to = part_lengths(Subject(height=found.height))
-    off = max(abs(own - other) for own, other in zip(lengths, set_to, strict=True))
-    if off > SAME_LENGTH:
-        what = f"is set to the lengths of a man of that height, from which [person] differs by {1e3 * off:.1f} mm"
-        raise InputError(study.device, "", what, "leave the lengths of [person] out, or device")
-    if found.by_itself < BY_ITSELF:
-        what = f"identifies {found.by_itself} parameters by themselves, where a motion of all hinges has {BY_ITSELF}"
-        raise InputError(study.device, "", what, "move all three hinges in the motion without a person")
-    lacking = [name for name in vars(masses) if name not in study.masses]
-    if lacking:
-        reserve(
-            f"{file.name}: no mass of {', '.join(lacking)}: invented ones are used, which no motion without a person "
-            "identifies; weigh the parts, and write [masses]"
-        )
-    try:
-        device = identified_device(found.values, lengths, masses)
-    except ValueError as error:
-        remedy = "weigh the parts, and check [masses]: they are of both sides"
-        raise InputError(study.device, "", str(error), remedy) from error
-    for part, more in zip(PARTS, device.raised, strict=True):
-        if more > 0.0:
-            reserve(
-                f"{study.device.name}: the inertia of {part} is raised by {more:.2g} kg m² to be that of a body: "
-                "faster motions without a person, or its true mass, identify it better"
-            )
-    return device
-
-
 def joint_torques(
     files: StandingTrialFiles, device: WornDevice, time: Times, angles: Table, used: Used, noise: float
 ) -> Float[np.ndarray, "u j"] | None:
@@ -148,8 +103,8 @@ def joint_torques(
         return np.hstack([person, torque])
     step = float(np.ptp(time)) / (len(time) - 1)
     friction = device.friction(np.gradient(zero_lag(angles, step, CUTOFF), step, axis=0))[used]
-    if not device.identified:
-        reserve(f"{files.name}: hinges without friction: name numbers.csv of sit-to-stand device as device")
+    if not device.rubs:
+        reserve(f"{files.name}: hinges without friction: name device.toml of sit-to-stand device as device")
     motors = np.zeros_like(friction)
     if files.motors is not None:
         motors = columns_at(files.motors, EXO_JOINTS, f"{files.name} motors", at)

@@ -29,12 +29,12 @@ class DeviceNumbers:
     values
         Parameters by name, in SI.
     by_itself
-        How many of them the motion identified by themselves.
+        Names of those that the motion identified by themselves.
     """
 
     height: float
     values: Mapping[str, float]
-    by_itself: int
+    by_itself: tuple[str, ...]
 
 
 def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
@@ -43,7 +43,8 @@ def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
     if not {"number", "value", "note"} <= set(rows.fieldnames or ()):
         raise InputError(path, "line 1", "has no columns number, value and note", REMEDY)
     found: dict[str, float] = {}
-    alone, wanted = 0, {HEIGHT, *names}
+    alone: list[str] = []
+    wanted = {HEIGHT, *names}
     for line, row in enumerate(rows, 2):
         name = row["number"]
         if name not in wanted:
@@ -59,8 +60,9 @@ def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
         if abs(value) > LARGEST_MEANT:
             raise InputError(path, f"line {line}", f"{name} {TOO_LARGE}", REMEDY)
         found[name] = value
-        alone += row["note"] == ALONE
+        if row["note"] == ALONE:
+            alone.append(name)
     missing = [name for name in (HEIGHT, *names) if name not in found]
     if missing:
         raise InputError(path, "", f"no {', '.join(missing)}", REMEDY)
-    return DeviceNumbers(found.pop(HEIGHT), found, alone)
+    return DeviceNumbers(found.pop(HEIGHT), found, tuple(alone))

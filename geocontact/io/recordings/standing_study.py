@@ -202,7 +202,8 @@ class StandingStudy(Document):
     exoskeleton
         Whether it was worn.
     device
-        numbers.csv of `sit-to-stand device`, in place of the shipped exoskeleton.
+        Description of the exoskeleton (.toml), such as device.toml of `sit-to-stand device`, or its numbers.csv; the
+        shipped exoskeleton by default.
     masses
         Masses of the exoskeleton's bodies, both sides.
     straps

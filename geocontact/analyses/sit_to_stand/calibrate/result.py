@@ -73,7 +73,7 @@ PUT_IN = ("force", "centre")
 
 def read(o: StandingCalibrateOptions) -> StandingUpTrials:
     """Everything in the study."""
-    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes, o.device)
     if trials.exoskeleton:
         doubt_sites(trials)
     return trials
@@ -178,7 +178,7 @@ class StandingCalibrateResult(Result):
         kind = {"worn": self.given.exoskeleton, "one_leg": self.given.one_leg}
         write_standing_model(folder / "model.osim", subject, values, sites=sites, **kind)
         if self.phases[-1].name == "B":
-            write_strap_case(folder / "gap", subject, self.given.trials, values, damping=sites[0].damping)
+            write_strap_case(folder / "gap", subject, self.given.trials, values, site=sites[0])
         super().write_files(folder)
 
 

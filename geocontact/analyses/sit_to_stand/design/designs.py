@@ -51,7 +51,7 @@ class TrialsToHelp:
 
 def read(o: StandingDesignOptions) -> TrialsToHelp:
     """Everything the options name; InputError where no exoskeleton is worn or draws lack intervals."""
-    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes, o.device)
     refuse_stances(trials, o.study)
     if not trials.exoskeleton:
         what, remedy = "is not of a person with an exoskeleton", "write exoskeleton = true, and torques and strap"

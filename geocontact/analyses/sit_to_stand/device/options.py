@@ -33,6 +33,9 @@ class StandingDeviceOptions(Options):
         Cut-off of the low-pass of angles and torques [Hz].
     level
         Probability of the intervals.
+    device
+        Description of the exoskeleton (.toml) into which device.toml merges what is identified; its lengths count
+        before those that follow from `height`.
 
     A trial
     -------
@@ -47,7 +50,8 @@ class StandingDeviceOptions(Options):
 
     writes: ClassVar[str] = """
     Writes parameters.csv (value, interval, and whether the motion identifies it by itself), unloaded.csv (torques of
-    the motors and of the fit), numbers.csv (all that ran), with a trial torque.csv and torques.sto, a figure,
+    the motors and of the fit), numbers.csv (all that ran), device.toml (the exoskeleton for `calibrate`, `predict`,
+    `compare` and `design`), with a trial torque.csv and torques.sto, a figure,
     report.html and run.json into OUT.
     """
 
@@ -59,6 +63,7 @@ class StandingDeviceOptions(Options):
     height: Annotated[float, TALL] = 1.75
     cutoff: Annotated[float, CUTOFF] = 6.0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
+    device: Path | None = None
     trial: Annotated[Path | None, Requires("trial_motors")] = None
     trial_motors: Annotated[Path | None, Requires("trial")] = None
     together: Annotated[Path | None, Requires("trial")] = None

@@ -5,6 +5,8 @@
 >>> print(gc.sit_to_stand.device(unloaded + "coordinates.sto", motors=unloaded + "motors.sto"))
 15 combinations of 18 parameters identified, 11 parameters by themselves; 0.22 N m are left of the motors' torques (root
 mean square)
+device.toml: friction of 6 of 6 kinds identified; neither described nor identified: foot_plate_mass, shank_mass,
+thigh_mass, module_mass
 """
 
 from __future__ import annotations
@@ -21,9 +23,11 @@ from jaxtyping import Float
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.sit_to_stand.device.merged import MergedExoskeleton, merged
 from geocontact.analyses.sit_to_stand.device.options import StandingDeviceOptions
 from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_tables import ran_table
+from geocontact.analyses.sit_to_stand.worn_exoskeleton import described_exoskeleton, units_of_parameters
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.data.plausible import COULOMB, FIRST_MOMENT, INERTIA, MOTOR, PART, VISCOUS
@@ -31,6 +35,7 @@ from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_size
 from geocontact.identify.signals.filters import ORDER, UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.recordings.exoskeleton_description import ExoskeletonFile, exoskeleton_toml
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
@@ -62,7 +67,7 @@ MEANT = [
     "Angles and torques went through the same filter, so that the fit is not bent by it.",
     "In a trial the torque at a hinge is that of its motor less its friction.",
 ]
-TORQUES = "torques.sto"
+TORQUES, DESCRIPTION = "torques.sto", "device.toml"
 FEWEST = 50
 """Samples of a motion."""
 POORLY = 0.2
@@ -77,9 +82,12 @@ class DeviceRecordings:
     ----------
     subject
         Its mass plays no part.
+    described
+        The exoskeleton's description, into which what is identified is merged.
     """
 
     subject: Subject
+    described: ExoskeletonFile
     unloaded: DeviceMotion
     trial: DeviceMotion | None
     together: Float[np.ndarray, "t 3"] | None
@@ -87,7 +95,10 @@ class DeviceRecordings:
 
 def read(o: StandingDeviceOptions) -> DeviceRecordings:
     """Everything the options name; InputError where files are on different clocks or too short."""
-    subject = Subject(height=o.height)
+    subject, described = Subject(height=o.height), ExoskeletonFile("exoskeleton", {})
+    if o.device is not None:
+        device, described = described_exoskeleton(o.device)
+        subject = replace(subject, device=device)
     unloaded = _motion((o.unloaded, "unloaded"), (o.motors, "motors"), subject, o.cutoff)
     used = int(unloaded.inner(o.cutoff).sum())
     if used < FEWEST:
@@ -98,7 +109,7 @@ def read(o: StandingDeviceOptions) -> DeviceRecordings:
         trial = _motion((o.trial, "trial"), (o.trial_motors, "trial_motors"), subject, o.cutoff)
         if o.together is not None:
             together = _columns((o.together, "together"), [f"{n}_moment [N m]" for n in JOINTS], trial.time)
-    return DeviceRecordings(subject, unloaded, trial, together)
+    return DeviceRecordings(subject, described, unloaded, trial, together)
 
 
 def _motion(angles: tuple[Path, str], motors: tuple[Path, str], subject: Subject, cutoff: float) -> DeviceMotion:
@@ -185,6 +196,11 @@ class StandingDeviceResult(Result):
         return None if both is None else human_torque(both, self.trial_torque)
 
     @property
+    def merged(self) -> MergedExoskeleton:
+        """Description and what the motion identified."""
+        return merged(self.given.described, self.dynamics, self.options.level)
+
+    @property
     def parameters(self) -> dict[str, float]:
         """Masses, first moments, inertias and friction of the device [kg, kg m, kg m^2, N m s/rad, N m]."""
         return dict(zip(self.dynamics.names, np.asarray(self.dynamics.values).tolist(), strict=True))
@@ -238,12 +254,14 @@ class StandingDeviceResult(Result):
         return {REPORT: motion_page(titles, self.sentences, sections, MEANT)}
 
     def write_files(self, folder: Path) -> None:
-        """torques.sto of a trial as a study reads them; tables, figure, page."""
+        """device.toml, torques.sto of a trial as a study reads them; tables, figure, page."""
         if (trial := self.given.trial) is not None:
             person = self.person_torque
             names = (*(() if person is None else JOINTS), *EXO_JOINTS)
             values = self.trial_torque if person is None else np.hstack([person, self.trial_torque])
             write_storage(folder / TORQUES, trial.time, names, values, title="Torques of both legs", degrees=False)
+        text = exoskeleton_toml(self.merged.file, units_of_parameters(), self.merged.remarks)
+        (folder / DESCRIPTION).write_text(text, encoding="utf-8")
         super().write_files(folder)
 
 
@@ -324,6 +342,10 @@ def run(given: DeviceRecordings, o: StandingDeviceOptions) -> StandingDeviceResu
             "parameters": dict(zip(table["parameter"], table["value"], strict=True)),
         },
     )
+    made = result.merged
+    for line in made.contradictions:
+        reserve(line)
+    say(made.sentence)
     if given.trial is not None:
         own = result.trial_torque
         sizes = ", ".join(f"{n} {v:.1f}" for n, v in zip(EXO_JOINTS, np.abs(own).max(axis=0), strict=True))

@@ -79,9 +79,9 @@ class HeldOutTrials:
 
 def read(o: StandingPredictOptions) -> HeldOutTrials:
     """Everything the options name; InputError where trials are not of one model."""
-    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes)
+    trials = standing_trials(o.study, "study", o.c3d_unit, o.axes, o.device)
     refuse_stances(trials, o.study)
-    known = standing_trials(o.against, "`against`", o.c3d_unit, o.axes)
+    known = standing_trials(o.against, "`against`", o.c3d_unit, o.axes, o.device)
     for file, study in ((o.study, trials), (o.against, known)):
         if not study.exoskeleton or not {"force", "centre", "torque", "strap"} <= set(study.tracks):
             what = "is not of a person with an exoskeleton, with force, centre, torque and strap"
@@ -90,7 +90,7 @@ def read(o: StandingPredictOptions) -> HeldOutTrials:
         person = (trials.subject.mass, trials.subject.height) != (known.subject.mass, known.subject.height)
         what = "is another person's" if person else "and device are another exoskeleton's"
         what, remedy = f"{what} than the calibration's", "predict trials of one person with one exoskeleton"
-        raise InputError(o.study, "mass" if person else "[masses]", what, remedy)
+        raise InputError(o.study, "mass" if person else "[masses], device", what, remedy)
     dashpots = [(of.sites[0].damping, of.sites[0].turning_damping) for of in (trials, known)]
     if dashpots[0] != dashpots[1]:
         raise InputError(o.study, "[straps]", "are damped otherwise than the calibration's", "write the same in both")

@@ -1,0 +1,167 @@
+"""An exoskeleton from its description: shipped numbers to the last bit, other ones by hand, contradictions named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.sit_to_stand.worn_exoskeleton import described_exoskeleton
+from geocontact.standing_up.chain import Subject
+from geocontact.standing_up.exoskeleton import two_chains
+from geocontact.standing_up.strap import strap_motion
+from geocontact.standing_up.worn_device import SHIPPED_DEVICE
+from tests.analyses.sit_to_stand.test_worn_trials import SAMPLE, read, study_of
+
+DESCRIBED = """name = "prototype"
+[numbers]
+foot_plate_mass = { value = 1.2, unit = "kg", source = "derived", note = "weighed" }
+shank_mass = { value = 2500, unit = "g", source = "derived", note = "weighed" }
+thigh_mass = { value = 3.1, unit = "kg" }
+module_mass = { value = 6, unit = "kg", source = "derived", note = "weighed" }
+shank_length = { value = 460, unit = "mm" }
+thigh_length = { value = 400, unit = "mm" }
+module_height = { value = 0.3, unit = "m" }
+thigh_centre = { value = 0.15, unit = "m" }
+thigh_ahead = { value = -20, unit = "mm" }
+thigh_inertia = { value = 0.05, unit = "kg m^2" }
+strap_damping = { value = 25, unit = "N s/m" }
+knee_coulomb = { value = 1.5, unit = "N m" }
+"""
+
+
+WEIGHED = {"shank": 3.0, "thigh": 4.2, "module": 5.0}
+
+
+@pytest.fixture
+def described(tmp_path: Path) -> Path:
+    file = tmp_path / "exoskeleton.toml"
+    file.write_text(DESCRIBED)
+    return file
+
+
+def test_the_shipped_description_is_the_exoskeleton_without_one(tmp_path: Path) -> None:
+    """The same object, so that results are the same to the last bit."""
+    assert described_exoskeleton(SAMPLE / "exoskeleton.toml")[0] == SHIPPED_DEVICE
+    plain, _ = read(study_of(tmp_path, "", hinges=True))
+    given, _ = read(study_of(tmp_path, "", f'device = "{SAMPLE / "exoskeleton.toml"}"', hinges=True))
+    assert given.sites == plain.sites and given.subject == plain.subject
+
+
+def test_bodies_hinges_and_straps_are_those_described(tmp_path: Path, described: Path) -> None:
+    """By hand: hinges stand 460 and 860 mm above the ankle; upright, the strap's point on both is one."""
+    given, _ = read(study_of(tmp_path, "", f'device = "{described}"', hinges=True))
+    chain = two_chains(given.subject)
+    bodies = {body.name: body for body in chain.bodies}
+    assert [bodies[f"exo_{part}"].mass for part in ("shank", "thigh", "module")] == [2.5, 3.1, 6.0]
+    np.testing.assert_allclose(bodies["exo_shank"].centre, [0.0, 0.23, 0.0])
+    np.testing.assert_allclose(bodies["exo_thigh"].centre, [-0.02, 0.15, 0.0])
+    assert bodies["exo_thigh"].inertia[2, 2] == 0.05
+    assert bodies["exo_module"].inertia[2, 2] == pytest.approx(6.0 * 0.3**2 / 12.0, rel=1e-12)
+    assert bodies["foot"].mass == pytest.approx(2 * 0.0137 * 70.0 + 1.2, rel=1e-12)
+    poses = chain.poses(np.zeros((1, 9)))
+    assert [poses[name].translation[0, 1] for name in ("exo_thigh", "exo_module")] == pytest.approx([0.46, 0.86])
+    site = given.sites[0]
+    assert (site.damping, site.turning_damping) == (25.0, 0.1)
+    moved = strap_motion(given.subject, np.zeros((1, 9)), 0.2, site)
+    assert np.abs([moved.normal[0], moved.tangential[0], moved.rotation[0]]).max() < 1e-12
+    knee = poses["thigh"].translation[0, 1]
+    assert site.above == pytest.approx(0.46 - knee, abs=1e-12)
+    rate = np.array([[0.3, -0.4, 0.2]])
+    np.testing.assert_allclose(given.subject.device.friction(rate), [[0.0, -1.5, 0.0]], atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        (("6, unit", "0, unit"), "0 is not that of a body"),
+        (("460, unit", "46, unit"), "0.046 m cannot be the length of a part.*46 cm meant"),
+        (("module_height", "module_heigth"), "perhaps module_height"),
+        (("1.5, unit", "-1.5, unit"), "cannot be the Coulomb friction"),
+    ],
+)
+def test_what_cannot_be_is_refused(tmp_path: Path, described: Path, changed: tuple[str, str], said: str) -> None:
+    described.write_text(DESCRIBED.replace(*changed))
+    with pytest.raises(gc.InputError, match=said):
+        read(study_of(tmp_path, "", f'device = "{described}"', hinges=True))
+
+
+def test_what_study_and_description_say_twice_must_agree(tmp_path: Path, described: Path) -> None:
+    head = f'device = "{described}"'
+    tail = '\n[masses]\nmodule = { value = 4, unit = "kg" }\n'
+    with pytest.raises(gc.InputError, match=r"\[masses\] module.*4 kg, and 6 kg in exoskeleton.toml"):
+        read(study_of(tmp_path, "", head, hinges=True, tail=tail))
+    with pytest.raises(gc.InputError, match=r"\[straps\] damping.*10, and 25 in the description"):
+        read(study_of(tmp_path, "", head, hinges=True, tail="\n[straps]\ndamping = 10\n"))
+
+
+def test_an_exoskeleton_that_does_not_fit_is_warned_of(tmp_path: Path, described: Path) -> None:
+    described.write_text(DESCRIBED.replace("460", "520"))
+    _, warned = read(study_of(tmp_path, "", f'device = "{described}"', hinges=True))
+    assert any("its knee is 77 mm above the person's" in line for line in warned), warned
+
+
+def test_what_device_identifies_is_read_without_hand_work(tmp_path: Path) -> None:
+    """device.toml in a study is numbers.csv there: the same bodies and friction; described masses are kept."""
+    files = SAMPLE / "unloaded_coordinates.sto", SAMPLE / "unloaded_motors.sto"
+    masses = tmp_path / "weighed.toml"
+    masses.write_text(
+        "[numbers]\n" + "".join(f'{name}_mass = {{ value = {mass}, unit = "kg" }}\n' for name, mass in WEIGHED.items())
+    )
+    result = gc.sit_to_stand.device(files[0], motors=files[1], device=masses)
+    out = result.write(tmp_path / "found")
+    assert (
+        "kept as described: shank_mass, thigh_mass, module_mass; neither described nor identified: foot_plate"
+        in str(result)
+    )
+    tables = study_of(tmp_path, 'mode = "passive"', f'device = "{out / "numbers.csv"}"').read_text()
+    by_table, _ = read(tmp_path / "study.toml")
+    (tmp_path / "study.toml").write_text(tables.replace("numbers.csv", "device.toml"))
+    by_file, warned = read(tmp_path / "study.toml")
+    assert any("no mass of foot_plate: invented" in line for line in warned)
+    assert by_file.subject.device.masses.thigh == 4.2
+    ours, theirs = (each.subject.device for each in (by_file, by_table))
+    np.testing.assert_allclose([ours.viscous, ours.coulomb], [theirs.viscous, theirs.coulomb], rtol=1e-10)
+    assert by_file.trials[0].torque is not None and by_table.trials[0].torque is not None
+    np.testing.assert_allclose(by_file.trials[0].torque, by_table.trials[0].torque, rtol=1e-9, atol=1e-9)
+    weighed = {body.name: body for body in two_chains(by_file.subject).bodies}
+    first = 4.2 * weighed["exo_thigh"].centre[1] + 5.0 * 0.414375  # what the motors see of thigh and module
+    values = result.parameters
+    told = values["exo_thigh first moment along y"] + values["exo_module mass"] * 0.414375
+    assert first == pytest.approx(told, rel=1e-9)
+
+
+def test_an_identified_number_that_contradicts_the_description_is_named(tmp_path: Path) -> None:
+    """The hip was planted with 2 N m of Coulomb friction: 2.1 agrees, 3 does not; a module of 1 kg at 0.1 m neither."""
+    file = tmp_path / "sheet.toml"
+    files = SAMPLE / "unloaded_coordinates.sto", SAMPLE / "unloaded_motors.sto"
+    rows = (
+        '[numbers]\nhip_coulomb = { value = %g, unit = "N m", source = "paper", note = "sheet" }\n'
+        'module_mass = { value = %g, unit = "kg" }\nmodule_centre = { value = 0.125, unit = "m" }\n'
+    )
+    file.write_text(rows % (2.05, 5.0))
+    gc.sit_to_stand.device(files[0], motors=files[1], device=file)
+    file.write_text(rows % (3.0, 1.0))
+    with pytest.warns(gc.InputWarning) as caught:
+        result = gc.sit_to_stand.device(files[0], motors=files[1], device=file)
+    said = [str(each.message) for each in caught]
+    assert any(
+        "exo_hip Coulomb friction: 1.981 ± 0.032 N m" in line and "3 by the description" in line for line in said
+    )
+    assert any("exo_module first moment along y" in line and "0.125 by" in line for line in said)
+    assert "# was 3" in (result.write(tmp_path / "out") / "device.toml").read_text()
+
+
+def test_a_device_beside_another_one_is_refused(tmp_path: Path, described: Path) -> None:
+    from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+
+    study = study_of(tmp_path, "", f'device = "{SAMPLE / "exoskeleton.toml"}"', hinges=True)
+    with pytest.raises(gc.InputError, match="name one of them"):
+        standing_trials(study, "study", device=described)
+    with pytest.raises(gc.InputError, match="has no effect without one"):
+        standing_trials(SAMPLE.parent / "standing_up" / "study.toml", "study", device=described)
+    given = standing_trials(study_of(tmp_path, "", hinges=True), "study", device=described)
+    assert given.subject.device.masses.module == 6.0
+    assert Subject(device=given.subject.device) != Subject()
