@@ -96,7 +96,7 @@ class WornDevice:
         Mass centres above and ahead of the hinge [m], inertias about z through them [kg m^2], in the order of `PARTS`;
         None for those of a uniform rod. Identified parts count before them.
     stated
-        Numbers of its description by name, with their sources; empty for the shipped exoskeleton.
+        Numbers of its description by name, with their sources, that are not the shipped ones.
     """
 
     masses: DeviceMasses = DeviceMasses()
@@ -187,7 +187,7 @@ def device_of(numbers: Mapping[str, Number]) -> WornDevice:
         along=tuple(at.get(f"{part}_centre") for part in parts),
         across=tuple(at.get(f"{part}_ahead") for part in parts),
         inertias=tuple(at.get(f"{part}_inertia") for part in parts),
-        stated=dict(numbers),
+        stated={name: each for name, each in numbers.items() if each != SHIPPED_NUMBERS.get(name)},
     )
 
 

@@ -23,7 +23,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Optional
+from typing import Annotated, Any
 
 from pydantic import create_model
 
@@ -149,11 +149,12 @@ def read_exoskeleton(path: Path, sources: tuple[str, ...], parameters: Mapping[s
     given: dict[str, Any] = {name: (Annotated[float, WithUnit(unit)], ...) for name, unit in parameters.items()}
     found_alone = create_model("Parameters", __base__=Document, **given)
     dynamics = create_model("Identified", __base__=IdentifiedDynamics, parameters=(found_alone, ...))
+    may_be_absent: Any = dynamics | None
     kind = create_model(
         "Exoskeleton",
         __base__=ExoskeletonDescription,
         numbers=(Annotated[dict[str, StatedNumber], numbers], {}),
-        identified=(Optional[dynamics], None),  # noqa: UP045
+        identified=(may_be_absent, None),
     )
     read = checked(path, kind, toml_of(path, LARGEST))
     stated: Mapping[str, StatedNumber] = read.numbers

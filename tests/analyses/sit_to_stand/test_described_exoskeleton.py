@@ -10,7 +10,8 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.sit_to_stand.worn_exoskeleton import described_exoskeleton
 from geocontact.standing_up.chain import Subject
-from geocontact.standing_up.exoskeleton import two_chains
+from geocontact.standing_up.exoskeleton import strapped, two_chains
+from geocontact.standing_up.numbers_that_ran import model_numbers
 from geocontact.standing_up.strap import strap_motion
 from geocontact.standing_up.worn_device import SHIPPED_DEVICE
 from tests.analyses.sit_to_stand.test_worn_trials import SAMPLE, read, study_of
@@ -48,6 +49,8 @@ def test_the_shipped_description_is_the_exoskeleton_without_one(tmp_path: Path) 
     plain, _ = read(study_of(tmp_path, "", hinges=True))
     given, _ = read(study_of(tmp_path, "", f'device = "{SAMPLE / "exoskeleton.toml"}"', hinges=True))
     assert given.sites == plain.sites and given.subject == plain.subject
+    rows = [model_numbers(strapped(each.subject, each.sites)) for each in (plain, given)]
+    assert rows[0] == rows[1], "numbers.csv, sources and notes included"
 
 
 def test_bodies_hinges_and_straps_are_those_described(tmp_path: Path, described: Path) -> None:
@@ -60,6 +63,8 @@ def test_bodies_hinges_and_straps_are_those_described(tmp_path: Path, described:
     np.testing.assert_allclose(bodies["exo_thigh"].centre, [-0.02, 0.15, 0.0])
     assert bodies["exo_thigh"].inertia[2, 2] == 0.05
     assert bodies["exo_module"].inertia[2, 2] == pytest.approx(6.0 * 0.3**2 / 12.0, rel=1e-12)
+    ran = {row.number: row for row in model_numbers(strapped(given.subject, given.sites))}
+    assert ran["body exo_module mass"].source == "derived" and "weighed" in ran["body exo_module mass"].note
     assert bodies["foot"].mass == pytest.approx(2 * 0.0137 * 70.0 + 1.2, rel=1e-12)
     poses = chain.poses(np.zeros((1, 9)))
     assert [poses[name].translation[0, 1] for name in ("exo_thigh", "exo_module")] == pytest.approx([0.46, 0.86])
