@@ -17,7 +17,7 @@ from geocontact.analyses.frame.job import Call, Job, execute
 from geocontact.analyses.frame.options import Declared, Options, declared
 from geocontact.analyses.frame.result import Result
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
-from geocontact.cli.opensim_setup import COMMANDS, HELP
+from geocontact.cli import folders, opensim_setup
 from geocontact.cli.show import Terminal
 from geocontact.data.errors import InputError
 
@@ -123,7 +123,8 @@ def command_of(entry: Entry) -> Command:
     def job(options: Options) -> Job[Any, Any]:
         return entry.load_job(many=bool(entry.many) and options.given("many"))
 
-    return Command(entry.load_options(), job, HELP if entry.command in COMMANDS else "")
+    more = [each.HELP for each in (opensim_setup, folders) if entry.command in each.COMMANDS]
+    return Command(entry.load_options(), job, "\n\n".join(more))
 
 
 def _shortened(files: list[str]) -> list[str]:

@@ -14,7 +14,9 @@ from cyclopts import App, CycloptsError, MissingArgumentError
 
 from geocontact.analyses.catalogue import ENTRIES, GROUPS
 from geocontact.analyses.frame.folder import discard_drafts, what_stays
+from geocontact.analyses.frame.record import recognised
 from geocontact.cli.command import place_of
+from geocontact.cli.folders import FoundCall, calls_in_folder
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped, remedy_for
 from geocontact.data.errors import InputError
@@ -79,10 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(tokens: Sequence[str], debug: bool = False) -> int:
     """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
     try:
-        tokens = with_setup(tokens)
-        _load_what_is_listed(tokens)
-        result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
-        return result if isinstance(result, int) else 0
+        return _called(tokens, debug)
     except MissingArgumentError as error:
         name = str(error.argument.name) if error.argument else "an argument"
         unit = "mesh files carry no unit; pass --unit mm, cm, m or in"
@@ -111,6 +110,22 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us
         return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
+
+
+def _called(tokens: Sequence[str], debug: bool) -> int:
+    tokens = with_setup(tokens)
+    if found := calls_in_folder(tokens):
+        return max([_run_found(each, debug) for each in found])
+    _load_what_is_listed(tokens)
+    result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+    return result if isinstance(result, int) else 0
+
+
+def _run_found(call: FoundCall, debug: bool) -> int:
+    """One trial of a folder: which file plays which part, then the command."""
+    print("\n".join(call.table))
+    with recognised(call.recognised):
+        return run(call.tokens, debug)
 
 
 def _words(error: MissingArgumentError) -> str:

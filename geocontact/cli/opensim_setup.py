@@ -37,7 +37,7 @@ def with_setup(tokens: Sequence[str]) -> list[str]:
             raise InputError("", OPTION, "is missing its file", "give OpenSim's set-up file")
         file = rest[at + 1]
         del rest[at : at + 2]
-    with _warnings_in_a_line():
+    with warnings_in_a_line():
         setup = setup_of(command, Path(file))
     for what in setup.unheeded:
         print(f"warning: {file}: {what} is ignored", file=sys.stderr)
@@ -47,7 +47,7 @@ def with_setup(tokens: Sequence[str]) -> list[str]:
 
 
 @contextmanager
-def _warnings_in_a_line() -> Iterator[None]:
+def warnings_in_a_line() -> Iterator[None]:
     """Warnings of a file that is read before the command, whose collector is not open yet."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", InputWarning)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from inspect import Parameter, Signature
 from os import fspath
@@ -109,8 +109,9 @@ def _parameter(one: Declared) -> Parameter:
 
 
 def tell_doubts(options: Options, record: Record) -> None:
-    """What is unusual about the options is a reservation of the result."""
-    for line in options.doubts():
+    """What is unusual about options, and about the folder they were found in, is a reservation of the result."""
+    told = (record.folder or {}).get("warnings", ())
+    for line in (*options.doubts(), *(map(str, told) if isinstance(told, Sequence) else ())):
         record.warn(line)
 
 

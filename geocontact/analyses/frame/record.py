@@ -8,6 +8,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike, fspath
@@ -45,6 +46,20 @@ class Listener:
     def stages(self, label: str) -> AbstractContextManager[Callable[[str], None]]:
         """A block that names the stages of its work as they begin."""
         return nullcontext(lambda _: None)
+
+
+FOLDER: ContextVar[Mapping[str, object] | None] = ContextVar("folder that inputs were found in", default=None)
+"""What was recognised in it; None where files were named one by one."""
+
+
+@contextmanager
+def recognised(found: Mapping[str, object]) -> Iterator[None]:
+    """A block whose runs take their files from a folder; its `warnings` are theirs."""
+    before = FOLDER.set(found)
+    try:
+        yield
+    finally:
+        FOLDER.reset(before)
 
 
 LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
@@ -91,6 +106,8 @@ class Record:
         Where results will be; None where nothing is written. What is whole by itself may be put there at once.
     without
         Parts of a result that are not written.
+    folder
+        What was recognised in the folder that the files were found in; None where they were named.
     held
         Values of a Python session that stand where files are; their files are there as long as the record is.
     """
@@ -111,6 +128,7 @@ class Record:
     forms: TableForms = AS_ALWAYS
     out: Path | None = None
     without: frozenset[str] = frozenset()
+    folder: Mapping[str, object] | None = field(default_factory=FOLDER.get)
     held: InMemory = field(default_factory=InMemory)
     _holds: bool = field(default=False, init=False, repr=False)
 
@@ -199,6 +217,7 @@ class Record:
             "command": self.command,
             "options": self.plain_options(),
             "options_si": {key: _plain(value) for key, value in self.in_si.items()},
+            **({} if self.folder is None else {"folder": _plain(self.folder)}),
             "inputs": self.inputs,
             "results": results,
             **({} if self.fit is None else _fit_words(self.fit, self.causes)),

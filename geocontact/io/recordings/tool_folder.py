@@ -1,0 +1,324 @@
+"""Folders of recordings as the tools of the field leave them: which file plays which part.
+
+Layouts, each seen in public repositories:
+
+- OpenCap session (opencap-org/opencap-processing): OpenSimData/Model/*.osim, OpenSimData/Kinematics/TRIAL.mot,
+  MarkerData/TRIAL.trc, sessionMetadata.yaml with mass_kg, height_m and openSimModel.
+- AddBiomechanics subject (keenon/AddBiomechanics, stanfordnmbl/addbiomechanics-paper): Models/*.osim, IK/TRIAL_ik.mot,
+  MarkerData/TRIAL.trc, ID/TRIAL_external_forces.xml, here or in results or osim_results; _subject.json beside them.
+- Pose2Sim project (perfanalytics/pose2sim): Config.toml; in each trial's folder pose-3d/*.trc, raw, filtered and
+  augmented, and kinematics/*.osim, *.mot.
+- trials of a laboratory: .trc or .c3d files of standing and of moving side by side, perhaps a model and its motions.
+
+Nothing is read here but names, and mass and height of the person.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from geocontact.data.errors import InputError
+from geocontact.io.text.file_preflight import read_bytes, read_json, read_text_bytes
+from geocontact.io.text.tables import listed
+from geocontact.io.text.toml_text import toml_of
+
+OPENCAP, ADDBIOMECHANICS, POSE2SIM, TRIALS = (
+    "OpenCap session",
+    "AddBiomechanics subject",
+    "Pose2Sim project",
+    "folder of trials",
+)
+METADATA, SUBJECT, CONFIG = "sessionMetadata.yaml", "_subject.json", "Config.toml"
+STATIC = re.compile(
+    r"(?<![a-z])(static|stat|cal|calib|calibration|stand|standing|neutral|t-?pose)(?![a-z])", re.IGNORECASE
+)
+"""Words in the name of a trial of standing still, where no other letters adjoin: walk_cal01, not calf or state."""
+SCALED = ("match_markers_and_physics", "match_markers_but_ignore_physics", "final", "optimized_scale_and_markers")
+"""Models that AddBiomechanics fits to the subject, the last step first."""
+GENERIC = ("unscaled_generic", "unscaled_but_with_optimized_markers")
+DEEPEST, MOST_FILES = 4, 20_000
+LARGEST_TEXT = 1_000_000
+HEAD = 65_536
+"""Bytes of a .c3d that hold the labels of its segments."""
+
+
+@dataclass(frozen=True)
+class FolderPerson:
+    """Who was recorded: mass [kg] and height [m], None where the file does not say it."""
+
+    file: Path
+    mass: float | None
+    height: float | None
+    model: str = ""
+
+    @property
+    def words(self) -> str:
+        """Both in one clause."""
+        known = ((self.mass, "kg"), (self.height, "m"))
+        return ", ".join(f"{value:g} {unit}" for value, unit in known if value is not None) or "no mass, no height"
+
+
+@dataclass(frozen=True)
+class FolderTrial:
+    """Files of one trial; `model` where it has one of its own, `static` where its name says that somebody stands."""
+
+    name: str
+    markers: Path | None = None
+    coordinates: Path | None = None
+    loads: Path | None = None
+    model: Path | None = None
+    static: bool = False
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class ToolFolder:
+    """What a folder holds.
+
+    Parameters
+    ----------
+    kind
+        Whose folder it is.
+    root
+        Where it is.
+    trials
+        By name, in the order of the alphabet.
+    models
+        Models of the person, the one to take first; several of one rank leave it open which is meant.
+    generic
+        Models that are not scaled to the person.
+    person
+        Mass and height, where a file says them.
+    unused
+        How many other files there are.
+    """
+
+    kind: str
+    root: Path
+    trials: tuple[FolderTrial, ...]
+    models: tuple[Path, ...] = ()
+    generic: tuple[Path, ...] = ()
+    person: FolderPerson | None = None
+    unused: int = 0
+
+
+def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
+    """What a folder holds; InputError in one line where it is none of the kinds above."""
+    root = Path(path)
+    for kind in (_opencap, _addbiomechanics, _pose2sim, _laboratory):
+        found = kind(root)
+        if found is not None:
+            return replace(found, unused=_count_of_others(found))
+    if any(file.suffix.lower() == ".b3d" for file in _files(root)):
+        raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
+    raise InputError(
+        root, "", "is no folder of trials", "name one of OpenCap, AddBiomechanics or Pose2Sim, or one with .trc or .c3d"
+    )
+
+
+B3D = "its reader, nimblephysics, is not used here: download the subject's OpenSim results as a folder"
+
+
+def _opencap(root: Path) -> ToolFolder | None:
+    inside = root / "OpenSimData"
+    if not inside.is_dir():
+        return None
+    person = _session(root / METADATA)
+    models = _named(inside / "Model", ".osim")
+    meant = [file for file in models if person and person.model and file.stem == f"{person.model}_scaled"]
+    markers, motions = _by_stem(root / "MarkerData", ".trc"), _by_stem(inside / "Kinematics", ".mot")
+    trials = [
+        FolderTrial(name, markers.get(name), motions.get(name), static=_is_static(name))
+        for name in sorted({*markers, *motions})
+    ]
+    return ToolFolder(OPENCAP, root, tuple(trials), tuple(meant or models), person=person)
+
+
+def _addbiomechanics(root: Path) -> ToolFolder | None:
+    places = (root, root / "results", root / "osim_results")
+    place = next((p for p in places if (p / "Models").is_dir() and ((p / "IK").is_dir() or (p / "ID").is_dir())), None)
+    if place is None:
+        return None
+    models = {file.stem: file for file in _named(place / "Models", ".osim")}
+    fitted = [models[name] for name in SCALED if name in models][:1]
+    generic = [models[name] for name in GENERIC if name in models]
+    others = [file for name, file in models.items() if name not in (*SCALED, *GENERIC)]
+    markers = _by_stem(place / "MarkerData", ".trc")
+    motions = _by_stem(place / "IK", ".mot", "_ik")
+    loads = _by_stem(place / "ID", ".xml", "_external_forces")
+    trials = [
+        FolderTrial(name, markers.get(name), motions.get(name), loads.get(name), static=_is_static(name))
+        for name in sorted({*markers, *motions})
+    ]
+    about = next((p / SUBJECT for p in (place, *place.parents[:1]) if (p / SUBJECT).is_file()), None)
+    person = None if about is None else _subject(about)
+    return ToolFolder(ADDBIOMECHANICS, root, tuple(trials), tuple(fitted or others), tuple(generic), person)
+
+
+def _pose2sim(root: Path) -> ToolFolder | None:
+    if not (root / CONFIG).is_file():
+        return None
+    places = sorted({file.parent.parent for file in _files(root) if file.parent.name == "pose-3d"})
+    config = toml_of(root / CONFIG, LARGEST_TEXT)
+    augmented = bool(_table(config, "kinematics").get("use_augmentation", True))
+    trials = [trial for place in places for trial in _of_project(place, augmented)]
+    if not trials:
+        return None
+    names = [trial.name for trial in trials]
+    if len(set(names)) < len(names):
+        trials = [replace(t, name=f"{p.name}_{t.name}") for p in places for t in _of_project(p, augmented)]
+    return ToolFolder(POSE2SIM, root, tuple(trials), person=_participant(root / CONFIG, config))
+
+
+def _of_project(place: Path, augmented: bool) -> Iterator[FolderTrial]:
+    """Trials of one folder of Pose2Sim, a name for each person in it."""
+    variants: dict[str, list[Path]] = {}
+    for file in _named(place / "pose-3d", ".trc"):
+        variants.setdefault(_without_steps(file.stem), []).append(file)
+    inside = next((place / name for name in ("kinematics", "opensim") if (place / name).is_dir()), place / "kinematics")
+    for name, files in sorted(variants.items()):
+        best = max(files, key=lambda file: (_rank(file.stem, augmented), file.name))
+        motions, models = (
+            [file for file in _named(inside, ending) if _without_steps(file.stem) == name]
+            for ending in (".mot", ".osim")
+        )
+        own = [
+            next((f for f in each if f.stem == best.stem), each[0] if len(each) == 1 else None)
+            for each in (motions, models)
+        ]
+        note = f"the last step of {len(files)} files" if len(files) > 1 else ""
+        yield FolderTrial(name, best, own[0], None, own[1], _is_static(name), note)
+
+
+def _without_steps(stem: str) -> str:
+    """Name of a trial without frames, filter and augmentation, in either order that Pose2Sim has had."""
+    return re.sub(r"(_LSTM|_filt_[a-z]+|_\d+-\d+)+$", "", stem)
+
+
+def _rank(stem: str, augmented: bool) -> int:
+    """Steps that a file of markers has behind it; one that the project does not want comes last."""
+    if "_LSTM" in stem:
+        return 2 if augmented else -1
+    return 1 if "_filt_" in stem else 0
+
+
+def _laboratory(root: Path) -> ToolFolder | None:
+    markers: dict[str, Path] = {}
+    for file in (*_named(root, ".c3d"), *_named(root, ".trc")):
+        if file.stem in markers:
+            what = f"{markers[file.stem].name} and {file.name} are of one trial"
+            raise InputError(root, "", what, "name the file that is meant, or leave one of them there")
+        _refuse_segments(file)
+        markers[file.stem] = file
+    if not markers:
+        return None
+    motions = {**_by_stem(root, ".mot"), **_by_stem(root, ".mot", "_ik")}
+    trials = [FolderTrial(name, file, motions.get(name), static=_is_static(name)) for name, file in markers.items()]
+    return ToolFolder(TRIALS, root, tuple(sorted(trials, key=lambda t: t.name)), tuple(_named(root, ".osim")))
+
+
+def _refuse_segments(file: Path) -> None:
+    """InputError for poses of segments, as Theia writes them: labels such as pelvis_4X4 in the group ROTATION."""
+    if file.suffix.lower() == ".c3d" and b"pelvis_4X4" in read_bytes(file)[:HEAD]:
+        what = "holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
+        raise InputError(file, "ROTATION:LABELS", what, "export markers or joint centres as .trc or .c3d")
+
+
+def _is_static(name: str) -> bool:
+    return STATIC.search(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)) is not None
+
+
+def _files(root: Path) -> Iterator[Path]:
+    """Files below a folder in the order of names, neither hidden ones nor those too deep; InputError for too many."""
+    count = 0
+    for place, folders, names in os.walk(root):
+        deep = len(Path(place).relative_to(root).parts)
+        folders[:] = sorted(name for name in folders if not name.startswith(".")) if deep < DEEPEST else []
+        for name in sorted(names):
+            if not name.startswith("."):
+                count += 1
+                if count > MOST_FILES:
+                    raise InputError(root, "", f"holds more than {MOST_FILES} files", "name the folder of one person")
+                yield Path(place) / name
+
+
+def _named(folder: Path, ending: str) -> list[Path]:
+    """Files of a folder with an ending, in the order of names; nothing where there is no such folder."""
+    if not folder.is_dir():
+        return []
+    files = (file for file in folder.iterdir() if file.suffix.lower() == ending and file.is_file())
+    return sorted(file for file in files if not file.name.startswith("."))
+
+
+def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
+    """By name of the trial, which the file's name has before `tail`."""
+    return {f.stem.removesuffix(tail): f for f in _named(folder, ending) if f.stem.endswith(tail)}
+
+
+def _count_of_others(found: ToolFolder) -> int:
+    used = {*found.models[:1], *found.generic[:1]} | ({found.person.file} if found.person else set())
+    for trial in found.trials:
+        used |= {each for each in (trial.markers, trial.coordinates, trial.loads, trial.model) if each is not None}
+    return sum(file not in used for file in _files(found.root))
+
+
+def _session(file: Path) -> FolderPerson | None:
+    """Keys of the first level of OpenCap's YAML, each a line `mass_kg: 83.0`."""
+    if not file.is_file():
+        return None
+    lines = read_text_bytes(file, LARGEST_TEXT).decode("utf-8-sig", errors="replace").splitlines()
+    told = dict(line.split(":", 1) for line in lines if re.match(r"\w+:", line))
+    mass, height = (_size(file, key, told.get(key, "").strip()) for key in ("mass_kg", "height_m"))
+    return FolderPerson(file, mass, height, told.get("openSimModel", "").strip().strip("'\""))
+
+
+def _subject(file: Path) -> FolderPerson:
+    try:
+        told = read_json(file)
+    except (ValueError, RecursionError) as error:
+        raise InputError(file, "", "is not JSON", "download the subject again") from error
+    told = told if isinstance(told, dict) else {}
+    return FolderPerson(file, _size(file, "massKg", told.get("massKg")), _size(file, "heightM", told.get("heightM")))
+
+
+def _participant(file: Path, config: dict[str, Any]) -> FolderPerson | None:
+    """Mass and height of a project of one person; of several persons nobody knows whose trial is whose."""
+    project = _table(config, "project")
+    sizes = [project.get(key, "") for key in ("participant_mass", "participant_height")]
+    sizes = [each[0] if isinstance(each, list) and len(each) == 1 else each for each in sizes]
+    if any(isinstance(each, list) for each in sizes):
+        return None
+    mass, height = sizes
+    return FolderPerson(file, _size(file, "participant_mass", mass), _size(file, "participant_height", height))
+
+
+def _table(config: dict[str, Any], name: str) -> dict[str, Any]:
+    found = config.get(name, {})
+    return found if isinstance(found, dict) else {}
+
+
+def _size(file: Path, key: str, said: object) -> float | None:
+    """A mass or height above 0; None where nothing is said, or `auto`."""
+    if said in ("", "auto", None):
+        return None
+    try:
+        value = float(said) if isinstance(said, (str, int, float)) else 0.0
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < 1000.0:
+        raise InputError(
+            file, key, f"'{json.dumps(said)[:40]}' is no size of a person", "correct it, or delete the line"
+        )
+    return value
+
+
+def choices(folder: ToolFolder) -> str:
+    """Names of its trials, for a message."""
+    return listed(tuple(trial.name for trial in folder.trials))

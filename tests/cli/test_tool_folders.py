@@ -1,0 +1,220 @@
+"""Folders as OpenCap, AddBiomechanics, Pose2Sim and laboratories leave them; all made here, synthetic."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from geocontact.analyses.motion.folder_inputs import folder_inputs
+from geocontact.data.errors import InputError
+from geocontact.io.recordings.tool_folder import read_tool_folder
+from tests import legs
+from tests.cli.calls import Call, call, done
+
+SESSION = "calibrationSettings:\n  mass_kg: 1\nheight_m: 1.8\nmass_kg: {}\nopenSimModel: leg\nsubjectID: synthetic\n"
+
+
+@pytest.fixture(scope="module")
+def leg(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Model, motion and markers of a leg that swings and stands, and a plate under it."""
+    folder = tmp_path_factory.mktemp("leg")
+    _, model, time, values = legs.planted(folder)
+    legs.mot_file(folder, model, time, values)
+    legs.plate_files(folder, time, (20.0, 200.0, 5.0), (0.1, 0.0, 0.05))
+    legs.trc_file(folder, legs.markers_of(model, time, 0.0 * values + values[:1])).rename(folder / "still.trc")
+    legs.trc_file(folder, legs.markers_of(model, time, values))
+    return folder
+
+
+def mass_of(leg: Path) -> float:
+    return legs.read_multibody(leg / "leg.osim").mass
+
+
+def put(leg: Path, root: Path, *pairs: tuple[str, str]) -> Path:
+    for name, place in pairs:
+        (root / place).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(leg / name, root / place)
+    return root
+
+
+def opencap(leg: Path, root: Path, mass: float | None = None) -> Path:
+    root.mkdir()
+    (root / "sessionMetadata.yaml").write_text(SESSION.format(mass or mass_of(leg)))
+    return put(
+        leg,
+        root,
+        ("leg.osim", "OpenSimData/Model/leg_scaled.osim"),
+        ("walk.mot", "OpenSimData/Kinematics/walk1.mot"),
+        ("walk.trc", "MarkerData/walk1.trc"),
+        ("still.trc", "MarkerData/neutral.trc"),
+        ("walk.trc", "Videos/Cam0/notes.txt"),
+    )
+
+
+def addbiomechanics(leg: Path, root: Path) -> Path:
+    put(
+        leg,
+        root,
+        ("leg.osim", "Models/match_markers_and_physics.osim"),
+        ("leg.osim", "Models/match_markers_but_ignore_physics.osim"),
+        ("leg.osim", "Models/unscaled_generic.osim"),
+        ("walk.mot", "IK/walk_segment_0_ik.mot"),
+        ("walk.trc", "MarkerData/walk_segment_0.trc"),
+        ("loads.xml", "ID/walk_segment_0_external_forces.xml"),
+        ("grf.mot", "ID/grf.mot"),
+    )
+    (root / "_subject.json").write_text(json.dumps({"massKg": f"{mass_of(leg)}", "heightM": 1.8}))
+    return root
+
+
+def pose2sim(leg: Path, root: Path) -> Path:
+    trial = "T01_Walk/pose-3d/T01_Walk_0-100"
+    put(leg, root, ("still.trc", f"{trial}.trc"), ("still.trc", f"{trial}_filt_butterworth.trc"))
+    put(leg, root, ("walk.trc", f"{trial}_filt_butterworth_LSTM.trc"))
+    put(leg, root, ("leg.osim", "T01_Walk/kinematics/T01_Walk_0-100_filt_butterworth_LSTM.osim"))
+    (root / "Config.toml").write_text(
+        f"[project]\nparticipant_mass = [{mass_of(leg)}]\n[kinematics]\nuse_augmentation = true\n"
+    )
+    return root
+
+
+def same(ours: Call, theirs: Call, *names: str) -> None:
+    for name in names:
+        assert ours.bytes(name) == theirs.bytes(name), name
+
+
+def test_a_session_of_opencap_is_one_word(leg: Path, tmp_path: Path) -> None:
+    """Three words in place of five and of two paths inside of it; the numbers are the same to the byte."""
+    root, out = opencap(leg, tmp_path / "session"), tmp_path / "out"
+    before = (
+        "ik",
+        root / "MarkerData/walk1.trc",
+        "--model",
+        root / "OpenSimData/Model/leg_scaled.osim",
+        "--out",
+        out / "a",
+    )
+    after = ("ik", root, "--out", out / "b")
+    assert (len(before), len(after)) == (6, 4)
+    theirs, ours = (done(call(*words, folder=words[-1])) for words in (before, after))
+    same(ours, theirs, "ik.mot", "markers.csv")
+    told = ours.record()["folder"]
+    assert [told["kind"], told["trial"], told["unused_files"]] == ["OpenCap session", "walk1", 1]
+    assert {row["part"]: row["file"] for row in told["parts"]} == {
+        "markers": "MarkerData/walk1.trc",
+        "model": "OpenSimData/Model/leg_scaled.osim",
+        "person": "sessionMetadata.yaml",
+    }
+    assert "folder" not in theirs.record() and not told["warnings"]
+    assert all(row["file"] in ours.out for row in told["parts"]) and "1 other file not used" in ours.out
+    assert "the inputs are the same" in call("rerun", out / "b").out
+
+
+def test_named_trials_have_a_folder_each(leg: Path, tmp_path: Path) -> None:
+    root = opencap(leg, tmp_path / "session")
+    done(call("ik", root, "--trial", "walk1", "--trial=neutral", "--out", tmp_path / "o"))
+    assert {file.parent.name for file in (tmp_path / "o").glob("*/ik.mot")} == {"walk1", "neutral"}
+    made = done(call("markers", root, "--out", tmp_path / "m", folder=tmp_path / "m"))
+    theirs = done(
+        call("markers", leg / "walk.mot", "--model", leg / "leg.osim", "--out", tmp_path / "n", folder=tmp_path / "n")
+    )
+    same(made, theirs, "markers.trc")
+
+
+def test_a_subject_of_addbiomechanics_has_its_loads(leg: Path, tmp_path: Path) -> None:
+    root = addbiomechanics(leg, tmp_path / "subject")
+    named = ("--model", leg / "leg.osim", "--loads", leg / "loads.xml", "--out", tmp_path / "a")
+    theirs = call("id", leg / "walk.mot", *named, folder=tmp_path / "a")
+    ours = call("id", root, "--out", tmp_path / "b", folder=tmp_path / "b")
+    assert ours.code == theirs.code == 1  # a constant load under a leg that swings contradicts it, either way
+    assert [row["part"] for row in ours.record()["folder"]["parts"]] == ["coordinates", "model", "loads", "person"]
+    same(ours, theirs, "id.sto")
+    (one,) = folder_inputs("id", root)
+    assert dict(one.options)["model"].endswith("match_markers_and_physics.osim")
+    typed = folder_inputs("id", root, typed=frozenset({"loads", "model"}))
+    assert not typed[0].options
+    nested = tmp_path / "nested"
+    shutil.copytree(root, nested / "results")
+    assert folder_inputs("ik", nested)[0].recording.name == "walk_segment_0.trc"
+
+
+def test_loads_that_are_missing_are_said(leg: Path, tmp_path: Path) -> None:
+    root = opencap(leg, tmp_path / "session")
+    ours = done(call("id", root, "--out", tmp_path / "b", folder=tmp_path / "b"))
+    assert any("no ground reaction belongs to walk1" in line for line in ours.warnings)
+    assert any("no ground reaction" in line for line in ours.record()["warnings"])
+
+
+def test_a_project_of_pose2sim_gives_its_last_step(leg: Path, tmp_path: Path) -> None:
+    root = pose2sim(leg, tmp_path / "project")
+    (one,) = folder_inputs("ik", root)
+    assert one.trial == "T01_Walk" and one.recording.name.endswith("_LSTM.trc")
+    assert one.parts[0].note == "the last step of 3 files"
+    config = root / "Config.toml"
+    config.write_text(config.read_text().replace("true", "false"))
+    assert folder_inputs("ik", root)[0].recording.name.endswith("_filt_butterworth.trc")
+    with pytest.raises(InputError, match="no trial has coordinates; compute them first: geocontact ik"):
+        folder_inputs("id", root)
+
+
+def test_static_trials_are_known_by_name_and_by_standing(leg: Path, tmp_path: Path) -> None:
+    root = put(
+        leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("still.trc", "P1_cal01.trc"), ("walk.trc", "P1_walk.trc")
+    )
+    assert [one.trial for one in folder_inputs("ik", root)] == ["P1_walk"]
+    (one,) = folder_inputs("scale", root)
+    assert one.trial == "P1_cal01" and not one.warnings
+    done(call("scale", root, "--mass", "30", "--out", tmp_path / "s", folder=tmp_path / "s"))
+    (root / "P1_cal01.trc").rename(root / "calf.trc")
+    (one,) = folder_inputs("scale", root)
+    assert one.trial == "calf" and "no name says static" in one.warnings[0]
+    (root / "calf.trc").unlink()
+    (root / "P1_walk.trc").rename(root / "static.trc")
+    (one,) = folder_inputs("scale", root)
+    assert "its name says static, and its markers move" in one.warnings[0]
+
+
+def test_the_person_is_confronted_with_the_model(leg: Path, tmp_path: Path) -> None:
+    root = opencap(leg, tmp_path / "session", mass=1.3 * mass_of(leg))
+    (one,) = folder_inputs("ik", root)
+    assert "is it scaled?" in one.warnings[0]
+    done(call("ik", root, "--out", tmp_path / "o", folder=tmp_path / "o"))
+    (scale,) = folder_inputs("scale", root, typed=frozenset({"model"}))
+    assert float(dict(scale.options)["mass"]) == pytest.approx(1.3 * mass_of(leg)) and scale.trial == "neutral"
+
+
+def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> None:
+    root = opencap(leg, tmp_path / "session")
+    for words, line in (
+        (("ik", root, "--trial", "run"), "no trial 'run'; there are neutral, walk1"),
+        (("id", root, "--trial", "neutral"), "trial 'neutral' has no coordinates"),
+        (("scale", root), "holds no generic model to scale; name a generic model with --model"),
+        (("ik", leg / "walk.trc", "--trial", "a"), "--trial: has no effect without a folder"),
+        (("ik", root, "--trial"), "--trial: is missing its name"),
+        (("ik", tmp_path / "x.b3d"), "nimblephysics"),
+    ):
+        refused = call(*words, "--out", tmp_path / "no") if words[-1] != "--trial" else call(*words)
+        assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
+    shutil.copy(leg / "leg.osim", root / "OpenSimData/Model/other.osim")
+    assert folder_inputs("ik", root)  # the metadata name the model that is meant
+    (root / "sessionMetadata.yaml").write_text("mass_kg: heavy\n")
+    with pytest.raises(InputError, match=r"sessionMetadata.yaml mass_kg: .*heavy.* is no size of a person"):
+        read_tool_folder(root)
+    (root / "sessionMetadata.yaml").unlink()
+    with pytest.raises(InputError, match=r"holds 2 models: leg_scaled.osim, other.osim; name it with `model`"):
+        folder_inputs("ik", root)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="is no folder of trials"):
+        read_tool_folder(tmp_path / "empty")
+    (tmp_path / "empty" / "a.b3d").write_bytes(b"")
+    with pytest.raises(InputError, match="b3d only"):
+        read_tool_folder(tmp_path / "empty")
+    (tmp_path / "empty" / "a.c3d").write_bytes(b"\x02\x50" + 600 * b"\0" + b"pelvis_4X4")
+    with pytest.raises(InputError, match="as Theia writes them, which are not read"):
+        read_tool_folder(tmp_path / "empty")
+    two = put(leg, tmp_path / "two", ("leg.osim", "leg.osim"), ("still.trc", "cal1.trc"), ("still.trc", "static2.trc"))
+    with pytest.raises(InputError, match="2 trials are static: cal1, static2; say which one with `trial`"):
+        folder_inputs("scale", two)
