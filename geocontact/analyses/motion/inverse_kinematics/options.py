@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, Texts, TimeSpan
+from geocontact.analyses.frame.marks import C3dUnit, Excludes, Expression, Requires, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart
 from geocontact.data.multibody.joint_angle_forms import JointAngleForm
@@ -32,6 +32,9 @@ class IkOptions(Options):
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map
         Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
+    naming
+        Recorded markers known by their marker set: auto recognises it from the labels, or its name (plug-in-gait,
+        helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table.
     weight
         Weight of a marker over that of `tasks`: R.Heel=10; 0 leaves it out. May be given again.
     hold
@@ -80,6 +83,7 @@ class IkOptions(Options):
     follow: Annotated[Path | None, Requires("tasks")] = None
     marker_set: Path | None = None
     markers_map: str | None = None
+    naming: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
     weight: Texts = ()
     hold: Texts = ()
     fill: Annotated[float, GAP] = 0.1

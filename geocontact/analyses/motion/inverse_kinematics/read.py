@@ -11,6 +11,7 @@ from geocontact.analyses.motion.inverse_kinematics.knees import Knee, knees_of
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
+from geocontact.analyses.motion.naming import Naming, named_markers
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -27,7 +28,7 @@ class KinematicsInputs:
     """A model, its markers as seen, what each counts, knees whose clinical angles are wanted, heel strikes, toe offs.
 
     `analog` are the channels of a .c3d that belong to no force plate, where they are asked for; `doubts` the checks of
-    the recording that warned.
+    the recording that warned; `naming` the marker set that is known by name.
     """
 
     model: Multibody
@@ -38,6 +39,7 @@ class KinematicsInputs:
     offs: Strikes
     analog: TextTable | None = None
     doubts: frozenset[str] = frozenset()
+    naming: Naming | None = None
 
 
 def read(o: IkOptions) -> KinematicsInputs:
@@ -47,12 +49,14 @@ def read(o: IkOptions) -> KinematicsInputs:
     model = with_marker_set(model, o.model, o.marker_set)
     knees = knees_of(o.knee, model)
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
+    naming = None if o.naming is None else named_markers(model, seen, o.naming)
+    model = model if naming is None else naming.model
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     analog = _analog(o)
     doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes), channels=_channels(analog)))
     strikes, offs = strikes_and_offs(events_given(o.events, o.markers), o.markers.stem)
-    tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold)
-    return KinematicsInputs(model, seen, tasks, knees, strikes, offs, analog, doubts)
+    tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold, naming)
+    return KinematicsInputs(model, seen, tasks, knees, strikes, offs, analog, doubts, naming)
 
 
 def _channels(analog: TextTable | None) -> tuple[RecordedChannel, ...]:

@@ -116,7 +116,7 @@ class IkResult(Result):
         return squares_of(self.poses)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`coordinates` [deg, m], distances of `markers`; `knees`, `angles` and `cycles` where there are some."""
+        """`coordinates` [deg, m], distances of `markers`; `knees`, `angles`, `cycles`, `naming` if any."""
         p = self.poses
         units = ["deg" if c.kind == "rotational" else "m" for c in self.seen.model.coordinates]
         values = printed(self.seen.model.coordinates, p.values).T
@@ -126,6 +126,8 @@ class IkResult(Result):
             found["knees"] = knee_table(self.seen.model, p, self.seen.knees)
         if (form := self.options.joint_angles) is not None:
             found["angles"] = joint_angles_table(self.seen.model, p.time, np.asarray(p.values), form)
+        if self.seen.naming is not None:
+            found["naming"] = self.seen.naming.table()
         return {**found, "cycles": cycles_table(self.cycles)} if self.cycles else found
 
     def figure(self) -> Figure:
@@ -136,7 +138,7 @@ class IkResult(Result):
         """Coordinates over time, and how far each marker is from the model."""
         title, seen = f"Inverse kinematics of {self.options.markers.name}", self.seen
         said = self.sentences[1:] if self.fit_outcome == "contradicts" else self.sentences
-        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, said)}
+        return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, said, seen.naming)}
 
     def write_files(self, folder: Path) -> None:
         """ik.mot for OpenSim, its set-up with the markers as read and ik.json besides; analog.sto if asked for."""
@@ -165,7 +167,7 @@ class IkResult(Result):
         """With which OpenSim's own tool finds the same."""
         o, seen = self.options, self.seen
         model = seen_from_results(o.model)
-        if o.marker_set is not None:  # OpenSim's tool takes the model's own markers only
+        if o.marker_set is not None or o.naming is not None:  # OpenSim's tool takes the model's own markers only
             model = "model.osim"
             write_scaled_model(o.model, folder / model, seen.model, {})
         write_trc(folder / "seen.trc", seen.markers)

@@ -12,6 +12,7 @@ from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
 from geocontact.analyses.motion.marker_tasks import MarkerErrors
+from geocontact.analyses.motion.naming import Naming
 from geocontact.analyses.motion.panels import panels_of
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.motion import Course
@@ -36,6 +37,7 @@ def kinematics_page(
     seen: MarkerTrajectories,
     cycles: GaitCycles,
     sentences: Sequence[str] = (),
+    naming: Naming | None = None,
 ) -> Page:
     """The page of coordinates over time."""
     shown = thinned(len(found.time), [*np.asarray(found.values).T, *found.distances.T])
@@ -46,6 +48,7 @@ def kinematics_page(
         *kinematics_curves(model, found).at(shown),
         *cycles_curves(cycles),
         _markers(found),
+        *([] if naming is None else [naming.section()]),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),

@@ -13,6 +13,7 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, standing_on
 from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
+from geocontact.analyses.motion.naming import Naming, named_markers
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
@@ -28,13 +29,17 @@ MOVED = 0.02
 
 @dataclass(frozen=True)
 class Standing:
-    """A model, a static trial and its mean as one frame, factors by body, and what each marker counts."""
+    """A model, a static trial and its mean as one frame, factors by body, and what each marker counts.
+
+    `naming` is the marker set that is known by name.
+    """
 
     model: Multibody
     recorded: MarkerTrajectories
     markers: MarkerTrajectories
     factors: Factors
     tasks: MarkerTasks
+    naming: Naming | None = None
 
 
 def read(o: ScaleOptions) -> Standing:
@@ -43,21 +48,26 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
+    naming = None if o.naming is None else named_markers(model, whole, o.naming)
+    model = model if naming is None else naming.model
     on = standing_on(whole, o.static, turn_of(o.axes), o.c3d_unit)
     check_trial(
         TrialInputs(None, whole, on.plates, o.mass, stands_at=on.stands_at, surely=on.surely, turn=turn_of(o.axes))
     )
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
-    factors = factors_told(model, _measured(o, model, whole), o.scale)
-    return Standing(model, whole, seen, factors, marker_tasks(model, seen, o.tasks))
+    texts = o.scale if o.scale or naming is None else naming.measures
+    factors = factors_told(model, _measured(o, model, whole, texts), texts)
+    return Standing(model, whole, seen, factors, marker_tasks(model, seen, o.tasks, naming=naming), naming)
 
 
-def _measured(o: ScaleOptions, model: Multibody, standing: MarkerTrajectories) -> MarkerTrajectories:
+def _measured(
+    o: ScaleOptions, model: Multibody, standing: MarkerTrajectories, texts: tuple[str, ...]
+) -> MarkerTrajectories:
     """Trial and times of the distances of markers."""
     if o.sizes is None and o.sizes_time is None:
         return standing
-    if not any("/" in text for text in o.scale):
+    if not any("/" in text for text in texts):
         named = "`sizes`" if o.sizes is not None else "`sizes_time`"
         raise InputError("", named, "has no effect: no body is measured", "name pairs of markers with `scale`")
     file, time = o.sizes or o.static, o.sizes_time if o.sizes_time is not None or o.sizes is not None else o.time

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Texts, TimeSpan
+from geocontact.analyses.frame.marks import C3dUnit, Excludes, Expression, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.data.plausible import MASS
 
@@ -29,6 +29,10 @@ class ScaleOptions(Options):
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map
         Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
+    naming
+        Recorded markers known by their marker set: auto recognises it from the labels, or its name (plug-in-gait,
+        helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table,
+        and without `scale` the set's pairs measure the bodies.
     mass
         Mass of the subject [kg], shared among the bodies as in the model.
     mass_by_volume
@@ -61,6 +65,7 @@ class ScaleOptions(Options):
     scale: Texts = ()
     marker_set: Path | None = None
     markers_map: str | None = None
+    naming: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
     mass: Annotated[float | None, MASS] = None
     mass_by_volume: bool = False
     sizes: Path | None = None

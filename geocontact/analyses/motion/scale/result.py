@@ -94,16 +94,18 @@ class ScaleResult(Result):
         return labelled(self.factors)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`markers`, how far each is from the scaled model; `factors` by body, or by body and axis."""
+        """`markers`, how far each is from the scaled model; `factors` by body, or body and axis; `naming`."""
         off = {"marker": list(self.pose.markers), "distance [mm]": 1e3 * self.pose.distances[0]}
         told = labelled(self.factors)
         by = {"body": list(told), "factor [-]": list(told.values())}
-        return {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
+        found = {"markers": pd.DataFrame(off), "factors": pd.DataFrame(by)}
+        naming = self.standing.naming
+        return found if naming is None else {**found, "naming": naming.table()}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The static pose with its markers, factors, distances."""
         title, both = f"Model scaled to {self.options.static.name}", (self.seen, self.modelled)
-        return {REPORT: scaling_page(title, self.model, labelled(self.factors), self.pose, both)}
+        return {REPORT: scaling_page(title, self.model, labelled(self.factors), self.pose, both, self.standing.naming)}
 
     def write_files(self, folder: Path) -> None:
         """scaled.osim, scale.json and OpenSim's set-up with the static trial as it was read besides."""
@@ -119,9 +121,13 @@ class ScaleResult(Result):
         """With which OpenSim's own tool makes the same model."""
         o, standing = self.options, self.standing
         write_trc(folder / "seen.trc", standing.recorded)
+        model = seen_from_results(o.model)
+        if standing.naming is not None:  # OpenSim's tool needs the markers under these labels
+            model = "model.osim"
+            write_scaled_model(o.model, folder / model, standing.model, {})
         write_scale_setup(
             folder / "setup_scale.xml",
-            seen_from_results(o.model),
+            model,
             "" if o.marker_set is None else seen_from_results(o.marker_set),
             "seen.trc",
             self.factors,

@@ -10,6 +10,7 @@ from jaxtyping import Float
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS
 from geocontact.analyses.frame.words import NOT_A_DEVICE
 from geocontact.analyses.motion.marker_tasks import STANDING, MarkerErrors
+from geocontact.analyses.motion.naming import Naming
 from geocontact.analyses.motion.skeleton import markers_beside, scene_of, skeleton
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.inverse_kinematics import Poses
@@ -28,6 +29,7 @@ def scaling_page(
     factors: Mapping[str, float],
     pose: Poses,
     both: tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]],
+    naming: Naming | None = None,
 ) -> Page:
     """The page of a scaled model.
 
@@ -44,6 +46,7 @@ def scaling_page(
         sections.append(Intervals("Scale factors", "times", rows, bars=True, words=FACTORS))
     sections += [
         Intervals("Distance of markers", "mm", [IntervalRow(pose.markers[k], off[k]) for k in known], bars=True),
+        *([] if naming is None else [naming.section()]),
         INPUTS,
         OPTIONS,
         Words("What the numbers do not contain", [SKIN, NOT_A_DEVICE]),

@@ -1,0 +1,203 @@
+"""Marker sets known by name: which set labels belong to, and what the model makes of them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.motion.naming import SOFT, coverages, named_markers, recognised
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.marker_sets import MARKER_SETS, PLACES, normalised
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.data.multibody.model import Marker, Multibody
+from geocontact.io.mocap.trc import write_trc
+from geocontact.io.opensim.osim_multibody import read_multibody
+
+PUBLIC = {  # labels of public files
+    "plug-in-gait-lower": "LASI RASI LPSI RPSI RTHI RKNE RTIB RANK RHEE RTOE LTHI LKNE LTIB LANK LHEE LTOE",
+    "plug-in-gait": "LFHD RFHD LBHD RBHD C7 T10 CLAV STRN RBAK LSHO LELB LWRA LWRB LFIN RSHO RELB RWRA RWRB RFIN LASI "
+    "RASI LPSI RPSI LTHI LKNE LTIB LANK LHEE LTOE RTHI RKNE RTIB RANK RHEE RTOE",
+    "cgm2.3": "LASI RASI LPSI RPSI RTHI RTHAP RTHAD RKNE RTIB RTIAP RTIAD RANK RHEE RTOE LTHI LTHAP LTHAD LKNE LTIB "
+    "LTIAP LTIAD LANK LHEE LTOE RKNM LKNM RMED LMED",
+    "helen-hayes": "RSHO ROFF RELB RWRI LSHO LELB LWRI RASI LASI VSAC RTHI RKNE RSHA RANK RHEE RTOE LTHI LKNE LSHA "
+    "LANK LHEE LTOE",
+    "cleveland": "R.ASIS L.ASIS V.Sacral R.Thigh.Upper R.Thigh.Front R.Thigh.Rear R.Knee.Lat R.Knee.Med R.Shank.Upper "
+    "R.Ankle.Lat R.Heel R.Toe.Tip Top.Head",
+    "grand-challenge": "RAsis LAsis RPsis LPsis RThighSuperior RThighLateral RPatella RShankInferior RHeel RToe "
+    "RToeMedial RMidfootSuperior Sacral",
+    "opencap": "r.ASIS_study L.ASIS_study r.PSIS_study L.PSIS_study r_knee_study r_mknee_study r_ankle_study "
+    "r_mankle_study r_toe_study r_5meta_study r_calc_study C7_study r_thigh1_study RHJC_study",
+    "opencap-keypoints": "Neck RShoulder RElbow RWrist LShoulder LElbow LWrist midHip RHip RKnee RAnkle LHip LKnee "
+    "LAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel",
+    "cast-clusters": "RFT1 RFT2 RFT3 LFT1 RSK1 RSK2 RSK3 RSK4 RTH1 RTH2 RTH3 RTH4 PV1 PV2 PV3 pv4",
+}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_public_labels_are_of_their_set(name: str) -> None:
+    labels = PUBLIC[name].split()
+    assert (found := recognised(labels, "file")).name == name
+    assert set(found.found) == set(labels), "all labels"
+    shouted = [f"JW:{label.upper()}" for label in labels]
+    assert recognised(shouted, "file").name == name, "neither case nor subject counts"
+
+
+def test_every_label_names_one_place_that_is_known() -> None:
+    for name, known in MARKER_SETS.items():
+        written = [label.replace("{s}", side) for label in known.labels for side in ("rl" if "{s}" in label else "m")]
+        assert len({normalised(label) for label in written}) == len(written), f"{name}: two labels are one"
+        assert set(known.labels.values()) <= set(PLACES), name
+
+
+def test_coverage_counts_labels_of_the_set_and_of_the_file() -> None:
+    first = coverages(["LASI", "LPSI", "LKNE", "LANK", "foo"])[0]
+    assert first.words == "plug-in-gait-lower 4 of 16, left side only"
+    with pytest.raises(InputError, match=r"no marker set is recognised \(best is isb-trunk 1 of 4\)"):
+        recognised(["PX", "*1", "*2", "*3"], "file")
+
+
+def test_two_sets_that_fit_alike_and_differ_are_refused() -> None:
+    """A marker called Sternum is on the bone's middle in one set, on its upper end in another."""
+    tied = ["R_Asis", "L_Asis", "R_Heel", "L_Heel", "Sternum"]
+    with pytest.raises(InputError, match=r"5 of 49 and grand-challenge 5 of 58: .* Sternum.*`naming` cleveland"):
+        recognised(tied, "file")
+    labels = ["RASI", "LASI", "RPSI", "LPSI", "RTOE", "LTOE"]
+    assert recognised(labels, "file").found["RTOE"] == ("metatarsal_2", "r"), "6 of 16, not 6 of 44"
+    assert recognised(labels, "file", "rajagopal").found["RTOE"] == ("toe_tip", "r")
+    with pytest.raises(InputError, match="is no marker set"):
+        recognised(labels, "file", "vicon")
+
+
+def test_a_label_of_another_set_is_added_only_where_all_sets_agree() -> None:
+    labels = ["r_knee_study", "L_knee_study", "r.ASIS_study", "L.ASIS_study", "RTOE", "PX"]
+    found = recognised(labels, "file")
+    assert found.further == {"PX": ("xiphoid", "")}, "RTOE has two meanings"
+
+
+HIP, KNEE, ANKLE = np.array([-0.07, -0.066, 0.0835]), np.array([0.0, -0.42, 0.0]), np.array([0.0, -0.40, 0.0])
+
+
+def _joint(name: str, kind: str, parent: str, child: str, at: np.ndarray, coordinates: int) -> str:
+    named = "".join(f'<Coordinate name="{name}_{k}"/>' for k in range(coordinates))
+    frames = "".join(
+        f'<PhysicalOffsetFrame name="{body}_o"><socket_parent>{"/ground" if body == "ground" else "/bodyset/" + body}'
+        f"</socket_parent><translation>{' '.join(map(str, place))}</translation>"
+        f"<orientation>0 0 0</orientation></PhysicalOffsetFrame>"
+        for body, place in ((parent, at), (child, np.zeros(3)))
+    )
+    return (
+        f'<{kind} name="{name}"><socket_parent_frame>{parent}_o</socket_parent_frame>'
+        f"<socket_child_frame>{child}_o</socket_child_frame><coordinates>{named}</coordinates>"
+        f"<frames>{frames}</frames></{kind}>"
+    )
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    """A right leg of other lengths than gait2392's, with some of gait2354's markers."""
+    bodies = "".join(
+        f'<Body name="{name}"><mass>5</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>'
+        for name in ("pelvis", "femur_r", "tibia_r", "talus_r")
+    )
+    joints = (
+        _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6)
+        + _joint("hip_r", "BallJoint", "pelvis", "femur_r", HIP, 3)
+        + _joint("knee_r", "PinJoint", "femur_r", "tibia_r", KNEE, 1)
+        + _joint("ankle_r", "PinJoint", "tibia_r", "talus_r", ANKLE, 1)
+    )
+    own = {
+        "R.ASIS": ("pelvis", (0.02, 0.03, 0.12)),
+        "L.ASIS": ("pelvis", (0.02, 0.03, -0.12)),
+        "V.Sacral": ("pelvis", (-0.17, 0.04, 0.0)),
+        "R.Knee.Lat": ("femur_r", (0.0, -0.43, 0.05)),
+        "RTHI": ("pelvis", (0.0, 0.0, 0.0)),
+    }
+    markers = "".join(
+        f'<Marker name="{name}"><socket_parent_frame>/bodyset/{body}</socket_parent_frame>'
+        f"<location>{' '.join(map(str, at))}</location></Marker>"
+        for name, (body, at) in own.items()
+    )
+    path = tmp_path / "leg.osim"
+    path.write_text(
+        '<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="leg"><gravity>0 -9.8 0</gravity>'
+        f"<BodySet><objects>{bodies}</objects></BodySet><JointSet><objects>{joints}</objects></JointSet>"
+        f"<MarkerSet><objects>{markers}</objects></MarkerSet></Model></OpenSimDocument>"
+    )
+    return path
+
+
+LABELS = ("RASI", "LASI", "VSAC", "RTHI", "RKNE", "RSHA", "RANK", "LKNE", "ROFF", "FOO")
+
+
+def _place(label: str) -> tuple[str, np.ndarray]:
+    """Where a label is on the model, by hand: own markers, else the table in proportion to the segment."""
+    thigh, shank = 0.42 / 0.396, 0.40 / 0.430
+    return {
+        "RASI": ("pelvis", np.array([0.02, 0.03, 0.12])),
+        "LASI": ("pelvis", np.array([0.02, 0.03, -0.12])),
+        "VSAC": ("pelvis", np.array([-0.17, 0.04, 0.0])),
+        "RKNE": ("femur_r", np.array([0.0, -0.43, 0.05])),
+        "RTHI": ("femur_r", thigh * np.array([0.005, -0.22, 0.1])),
+        "RSHA": ("tibia_r", shank * np.array([0.0, -0.2, 0.075])),
+        "RANK": ("tibia_r", shank * np.array([-0.005, -0.425, 0.05])),
+    }[label]
+
+
+ORIGINS = {"pelvis": np.zeros(3), "femur_r": HIP, "tibia_r": HIP + KNEE}
+
+
+@pytest.fixture
+def standing(tmp_path: Path) -> Path:
+    """The leg as the model stands by default, 1.1 times as large; labels of Helen Hayes, and one of no set."""
+    places = np.full((3, len(LABELS), 3), 0.5)
+    for k, label in enumerate(LABELS[:7]):
+        body, at = _place(label)
+        places[:, k] = 1.1 * (ORIGINS[body] + at)
+    path = tmp_path / "static.trc"
+    write_trc(path, MarkerTrajectories(np.array([0.0, 0.01, 0.02]), places, LABELS))
+    return path
+
+
+def _named(file: Path) -> tuple[Multibody, dict[str, Marker], dict[str, str], dict[str, float]]:
+    seen = MarkerTrajectories(np.zeros(1), np.zeros((1, len(LABELS), 3)), LABELS, "static.trc")
+    with pytest.warns(InputWarning, match=r"taken for helen-hayes 9 of 22|no marker for|not used"):
+        found = named_markers(read_multibody(file), seen, "auto")
+    table = found.table().set_index("label")
+    return found.model, {m.name: m for m in found.model.markers}, dict(table["marker of the model"]), found.weights
+
+
+def test_labels_take_the_models_markers_and_the_table_in_proportion_to_the_segments(file: Path) -> None:
+    _, markers, how, weights = _named(file)
+    assert set(markers) == set(LABELS[:7])
+    for label, marker in markers.items():
+        body, at = _place(label)
+        assert marker.body == body, label
+        np.testing.assert_allclose(marker.location, at, atol=1e-12, err_msg=label)
+    assert how["RASI"] == "R.ASIS"
+    assert how["RTHI"] == "placed by the table", "the model's own of that name is on the pelvis: another place"
+    assert how["LKNE"] == "not used: no body femur_l"
+    assert how["FOO"] == "not used: in no set"
+    assert weights["RTHI"] == SOFT
+    assert weights["RKNE"] == 1.0
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
+def test_scale_measures_the_sets_pairs_and_ik_needs_no_name(file: Path, standing: Path, tmp_path: Path) -> None:
+    result = gc.scale(standing, model=file, naming="auto")
+    assert result.scale_factors == pytest.approx({"pelvis": 1.1, "femur_r": 1.1, "tibia_r": 1.1}, abs=1e-9)
+    assert result.rms < 1e-6
+    folder = result.write(tmp_path / "s")
+    assert (folder / "naming.csv").exists()
+    assert set(re.findall(r'Marker name="(\w+)"', (folder / "scaled.osim").read_text())) == set(LABELS[:7])
+    angles = gc.inverse_kinematics(standing, model=folder / "scaled.osim")
+    assert angles.rms < 1e-6
+    assert set(angles.distances) == set(LABELS[:7])
+    direct = gc.inverse_kinematics(standing, model=file, naming="helen-hayes")
+    assert direct.rms > 0.01, "not scaled: 10 % larger"
+    assert "naming" in direct.tables()
+    with pytest.raises(InputError, match="naming"):
+        gc.inverse_kinematics(standing, model=file, naming="auto", markers_map="RASI=R.ASIS")
