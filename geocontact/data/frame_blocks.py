@@ -45,15 +45,25 @@ def parts(values: np.ndarray, *others: np.ndarray, each: int = 0) -> Iterator[tu
 
 def worked(made: Callable[..., np.ndarray], values: np.ndarray, *others: np.ndarray, each: int = 0) -> np.ndarray:
     """What `made` gives for each part, frame by frame in one array; arguments as of `parts`."""
-    found, start = None, 0
+    return worked_together(lambda *some: (made(*some),), values, *others, each=each)[0]
+
+
+def worked_together(
+    made: Callable[..., tuple[np.ndarray, ...]], values: np.ndarray, *others: np.ndarray, each: int = 0
+) -> tuple[np.ndarray, ...]:
+    """As `worked`, of a function that gives several arrays for each part."""
+    found: tuple[np.ndarray, ...] = ()
+    start = 0
     for some in parts(values, *others, each=each):
-        part = made(*some)
-        if len(part) == len(values):
-            return part
-        found = room((len(values), *part.shape[1:]), part.dtype) if found is None else found
-        found[start : start + len(part)] = part
-        start += len(part)
-    return np.empty(0) if found is None else found
+        made_of_it = made(*some)
+        if len(some[0]) == len(values):
+            return made_of_it
+        found = found or tuple(room((len(values), *one.shape[1:]), one.dtype) for one in made_of_it)
+        for whole, part in zip(found, made_of_it, strict=True):
+            whole[start : start + len(part)] = part
+        start += len(some[0])
+    release()
+    return found
 
 
 def room(shape: Sequence[int], dtype: Any = np.float64) -> np.ndarray:
@@ -91,6 +101,12 @@ class Growing:
     def extend(self, numbers: Iterable[float]) -> None:
         """Append numbers."""
         self._near.extend(numbers)
+        if len(self._near) > AT_ONCE:
+            self._put_away()
+
+    def extend_by(self, numbers: np.ndarray) -> None:
+        """Append the numbers of an array, row by row."""
+        self._near.frombytes(np.ascontiguousarray(numbers, np.float64).tobytes())
         if len(self._near) > AT_ONCE:
             self._put_away()
 

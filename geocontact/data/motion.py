@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
+
+from geocontact.data.frame_blocks import worked
 
 
 @dataclass(frozen=True)
@@ -47,8 +50,21 @@ class Course:
         return value if self.name == "time" else f"{self.name} {value}"
 
 
+MATRIX = 16
+"""Entries of the matrix of a pose."""
 SAME_TIME = 1e-6
 """Seconds (or per cent of a cycle) that two clocks may differ by and still tell the same time."""
+
+
+def poses_in_parts(made: Callable[..., RigidTransform], *columns: Float[np.ndarray, "t ..."]) -> RigidTransform:
+    """The poses that `made` gives for each part of columns of the same frames; matrices of many lie in a file.
+
+    >>> shift = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
+    >>> poses_in_parts(RigidTransform.from_translation, shift).translation.tolist()
+    [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]
+    """
+    matrices = worked(lambda *some: made(*some).as_matrix(), *columns, each=MATRIX)
+    return RigidTransform(matrices, normalize=False, copy=False)
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.data.frame_blocks import blocks, release, worked, worked_together
 from geocontact.data.wrench import Wrench
 from geocontact.loads.resultant import resultant, weighted_centre
 from geocontact.loads.sphere_set import SphereLoads, SphereSet
@@ -93,7 +94,12 @@ def points_in_foot(points: Float[np.ndarray, "t 3"], poses: RigidTransform) -> F
 
 def path_length(centre: Float[np.ndarray, "t 3"]) -> float:
     """Length of the path of a centre [m], without the ways across frames that have none (NaN)."""
-    return float(np.nansum(np.linalg.norm(np.diff(centre, axis=0), axis=1)))
+    found = 0.0
+    for some in blocks(len(centre), 3):
+        steps = np.diff(centre[some.start : some.stop + 1], axis=0)
+        found += float(np.nansum(np.linalg.norm(steps, axis=1)))
+        release()
+    return found
 
 
 GROUND_POINT = "ground"
@@ -150,17 +156,56 @@ def centre_of_pressure(
     if point not in POINTS:
         raise ValueError(f"point must be {' or '.join(POINTS)}, not {point!r}")
     x = loads.point if point == GROUND_POINT else loads.centre
-    pressing, wrench = loads.pressing.sum(axis=1), resultant(loads.force, loads.point, "ground")
-    push = np.einsum("tn,tni->ti", loads.pressing, np.nan_to_num(loads.normal))
-    touching, own = pressing > 0.0, np.zeros((len(pressing), 3))
-    own[touching] = weighted_centre(x[touching], loads.pressing[touching], "centre of pressure")
+    pressing, force, moment, push, own = worked_together(
+        _sums, loads.pressing, loads.force, loads.point, loads.normal, x
+    )
     if smooth is not None:
-        first, moment, push = smooth(pressing[:, None]), smooth(pressing[:, None] * own), smooth(push)
-        wrench = replace(wrench, force=smooth(wrench.force), moment=smooth(wrench.moment))
-        pressing, own = first[:, 0], np.divide(moment, first, out=np.zeros_like(own), where=first > 0.0)
-    loaded = (pressing >= gate) & (pressing > 0.0)
-    centre, normal, free = (np.full(shape, np.nan) for shape in ((len(loaded), 3), (len(loaded), 3), len(loaded)))
-    centre[loaded] = own[loaded]
-    normal[loaded] = push[loaded] / np.linalg.norm(push[loaded], axis=1, keepdims=True)
-    free[loaded] = np.einsum("ti,ti->t", wrench.moved_to(centre).moment[loaded], normal[loaded])
-    return CentreOfPressure(centre, pressing, normal, free, wrench)
+        first = smooth(pressing[:, None])
+        own = worked(_over, smooth(worked(_times, pressing, own)), first)
+        pressing, force, moment, push = first[:, 0], smooth(force), smooth(moment), smooth(push)
+
+    def at_centre(
+        pressing: Float[np.ndarray, " t"],
+        own: Float[np.ndarray, "t 3"],
+        push: Float[np.ndarray, "t 3"],
+        force: Float[np.ndarray, "t 3"],
+        moment: Float[np.ndarray, "t 3"],
+    ) -> tuple[np.ndarray, ...]:
+        loaded = (pressing >= gate) & (pressing > 0.0)
+        centre, normal, free = (np.full(shape, np.nan) for shape in (own.shape, own.shape, len(own)))
+        centre[loaded] = own[loaded]
+        normal[loaded] = push[loaded] / np.linalg.norm(push[loaded], axis=1, keepdims=True)
+        turning = _about_origin(force, moment).moved_to(centre).moment
+        free[loaded] = np.einsum("ti,ti->t", turning[loaded], normal[loaded])
+        return centre, normal, free
+
+    centre, normal, free = worked_together(at_centre, pressing, own, push, force, moment)
+    return CentreOfPressure(centre, pressing, normal, free, _about_origin(force, moment))
+
+
+def _about_origin(force: Float[np.ndarray, "t 3"], moment: Float[np.ndarray, "t 3"]) -> Wrench:
+    return Wrench(force, moment, np.broadcast_to(np.zeros(3), force.shape), "ground")
+
+
+def _sums(
+    pressing: Float[np.ndarray, "t n"],
+    force: Float[np.ndarray, "t n 3"],
+    point: Float[np.ndarray, "t n 3"],
+    normal: Float[np.ndarray, "t n 3"],
+    x: Float[np.ndarray, "t n 3"],
+) -> tuple[np.ndarray, ...]:
+    """Normal force, force, moment about the origin, normal forces as vectors, and their centre (0 without any)."""
+    total, wrench = pressing.sum(axis=1), resultant(force, point, "ground")
+    push = np.einsum("tn,tni->ti", pressing, np.nan_to_num(normal))
+    touching, own = total > 0.0, np.zeros((len(total), 3))
+    own[touching] = weighted_centre(x[touching], pressing[touching], "centre of pressure")
+    return total, wrench.force, wrench.moment, push, own
+
+
+def _times(pressing: Float[np.ndarray, " t"], own: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:
+    return np.asarray(pressing[:, None] * own)
+
+
+def _over(moment: Float[np.ndarray, "t 3"], pressing: Float[np.ndarray, "t 1"]) -> Float[np.ndarray, "t 3"]:
+    """The centre that a moment of normal forces belongs to; 0 where none presses."""
+    return np.divide(moment, pressing, out=np.zeros_like(moment), where=pressing > 0.0)

@@ -7,6 +7,7 @@ from jaxtyping import Float
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform
 
+from geocontact.data.frame_blocks import release, room
 from geocontact.data.wrench import Wrench
 
 
@@ -51,6 +52,12 @@ def resultant(
 
 
 CUBIC = 3
+WINDOW = 1 << 13
+"""Frames whose spline is fitted at a time."""
+BESIDE = 64
+"""Frames on either side of them that go into it. The slopes of a spline solve equations whose diagonal is twice the sum
+of the rest (de Boor 2001, A practical guide to splines, ch. 4), so that a frame's weight at least halves from one frame
+to the next: what lies farther away changes no digit (2^-64)."""
 
 
 def pose_rate(time: Float[np.ndarray, " t"], poses: RigidTransform) -> Float[np.ndarray, "t 4 4"]:
@@ -62,5 +69,11 @@ def pose_rate(time: Float[np.ndarray, " t"], poses: RigidTransform) -> Float[np.
     """
     if len(time) == 1:
         return np.zeros((1, 4, 4))
-    spline = make_interp_spline(time, poses.as_matrix(), k=CUBIC if len(time) > CUBIC else 1)
-    return np.asarray(spline.derivative()(time))
+    found, order = room((len(time), 4, 4)), CUBIC if len(time) > CUBIC else 1
+    for start in range(0, len(time), WINDOW):
+        stop = min(start + WINDOW, len(time))
+        some = slice(max(0, start - BESIDE), stop + BESIDE)
+        spline = make_interp_spline(time[some], poses[some].as_matrix(), k=order)
+        found[start:stop] = spline.derivative()(time[start:stop])
+        release()
+    return found

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
+from geocontact.data.frame_blocks import blocks, parts, release, room
 from geocontact.loads.ground import Ground
 
 
@@ -161,13 +162,39 @@ def sphere_loads(
 
     One that is deeper than any of `SphereSet.deepest` is a ValueError: that is a mistaken frame, not a contact.
     """
+    every = list(blocks(len(rate), OF_A_SPHERE * len(spheres)))
+    if len(every) == 1:
+        return _loads_of(spheres, law, poses, rate, ground, 0)
+    wide, flat = (len(rate), len(spheres), 3), (len(rate), len(spheres))
+    found = SphereLoads(room(flat), room(wide), room(wide), room(wide), room(wide), room(flat))
+    for some in every:
+        part = _loads_of(spheres, law, poses[some], rate[some], ground, some.start)
+        for each in fields(SphereLoads):
+            getattr(found, each.name)[some] = getattr(part, each.name)
+        release()
+    return found
+
+
+OF_A_SPHERE = 14
+"""Numbers of `SphereLoads` for a sphere in a frame."""
+
+
+def _loads_of(
+    spheres: SphereSet,
+    law: SoleLaw,
+    poses: RigidTransform,
+    rate: Float[np.ndarray, "t 4 4"],
+    ground: Ground,
+    first: int,
+) -> SphereLoads:
+    """Loads in the frames of a part, which begins at frame `first`."""
     matrices = poses.as_matrix().reshape(-1, 4, 4)
     turn, count = matrices[:, :3, :3], len(spheres)
     centre = np.einsum("tij,nj->tni", turn, spheres.centre) + matrices[:, None, :3, 3]
     limit = float(spheres.deepest.max())
     near = ground.proximity(centre.reshape(-1, 3), limit)
     depth = spheres.radius - near.distance.reshape(-1, count)
-    _refuse_buried(depth, spheres)
+    _refuse_buried(depth, spheres, first)
     frame, sphere = np.nonzero(depth > 0.0)
     normal = np.full_like(centre, np.nan)
     point = np.full_like(centre, np.nan)
@@ -193,17 +220,21 @@ def sphere_loads(
 
 def clearance(spheres: SphereSet, loads: SphereLoads, ground: Ground) -> float:
     """Smallest distance between any sphere and the ground over all frames [m]; negative where one touches."""
-    distance = ground.proximity(loads.centre.reshape(-1, 3)).distance.reshape(loads.depth.shape)
-    return float((distance - spheres.radius).min())
+
+    def least(centre: Float[np.ndarray, "t n 3"]) -> float:
+        distance = ground.proximity(centre.reshape(-1, 3)).distance.reshape(centre.shape[:2])
+        return float((distance - spheres.radius).min())
+
+    return min(least(part) for (part,) in parts(loads.centre))
 
 
 def _velocity(rate: Float[np.ndarray, "c 4 4"], body_point: Float[np.ndarray, "c 3"]) -> Float[np.ndarray, "c 3"]:
     return np.asarray(np.einsum("cij,cj->ci", rate[:, :3, :3], body_point) + rate[:, :3, 3])
 
 
-def _refuse_buried(depth: Float[np.ndarray, "t n"], spheres: SphereSet) -> None:
+def _refuse_buried(depth: Float[np.ndarray, "t n"], spheres: SphereSet, first: int) -> None:
     buried = np.argwhere(np.isposinf(depth))
     if len(buried):
         frame, sphere = buried[0]
         one = f"{spheres.kind} {sphere + 1}"
-        raise ValueError(f"{one} is deeper under the ground than any {spheres.limit} in frame {frame + 1}")
+        raise ValueError(f"{one} is deeper under the ground than any {spheres.limit} in frame {first + frame + 1}")

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.data.frame_blocks import blocks, release
+
 FRAMES = 1001
 """Samples of a recording that a page shows at most, about; so many go into the width of a curve."""
 
@@ -31,8 +33,8 @@ def with_extremes(
     """
     if count <= most:
         return np.arange(count)
-    known = [curve for curve in (_known(each) for each in curves) if np.isfinite(curve).any()]
-    ends = [int(find(curve)) for curve in known[: most // 4] for find in (np.nanargmin, np.nanargmax)]
+    known = [curve for curve in curves if np.isfinite(curve).any()]
+    ends = [int(find(_known(curve))) for curve in known[: most // 4] for find in (np.nanargmin, np.nanargmax)]
     kept = np.unique(np.array([0, count - 1, *map(int, always), *ends]))
     leading = known
     while leading:
@@ -72,10 +74,16 @@ def _of_most_stretches(
 def _of_stretches(curve: Float[np.ndarray, " t"], stretches: int) -> Int[np.ndarray, " e"]:
     """Where a curve is least and largest in each of so many equal stretches in which it is known."""
     starts = np.linspace(0, len(curve), stretches + 1).astype(int)
-    at = np.minimum(starts[:-1, None] + np.arange(int(np.diff(starts).max())), starts[1:, None] - 1)
-    at = at[np.isfinite(curve[at]).any(axis=1)]
-    rows = np.arange(len(at))
-    return np.concatenate([at[rows, find(curve[at], axis=1)] for find in (np.nanargmin, np.nanargmax)])
+    longest = int(np.diff(starts).max())
+    found = []
+    for some in blocks(stretches, longest):
+        at = np.minimum(starts[:-1][some, None] + np.arange(longest), starts[1:][some, None] - 1)
+        values = _known(curve[at])
+        there = np.isfinite(values).any(axis=1)
+        at, values = at[there], values[there]
+        found += [at[np.arange(len(at)), find(values, axis=1)] for find in (np.nanargmin, np.nanargmax)]
+        release()
+    return np.concatenate(found)
 
 
 def _known(curve: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:

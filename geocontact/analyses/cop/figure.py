@@ -7,22 +7,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, loads_table, stance_table, stances
+from geocontact.analyses.cop.loads import MM, NAMES, SHARE, FootLoads, loads_table, stance_table, stances
 from geocontact.data.motion import Course
 from geocontact.view.curves.declared import Curve, Curves, CurveSheet, mean_curve
 from geocontact.view.curves.drawn import draw_on
 from geocontact.view.curves.style import DOUBLE, GREY, empty, in_style
+from geocontact.view.extremes import FRAMES, with_extremes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 ROWS = 3  # of panels beside the path
+DOTS = 10 * FRAMES  # of a path; of more, the outermost of each stretch are drawn
 
 
 @in_style
 def cop_figure(
-    sheet: CurveSheet, time: Float[np.ndarray, " t"], centre: Float[np.ndarray, "t 3"], normal: Float[np.ndarray, "t 3"]
+    sheet: CurveSheet,
+    time: Float[np.ndarray, " t"],
+    centre: Float[np.ndarray, "t 3"],
+    normal: Float[np.ndarray, " 3"] | None,
 ) -> Figure:
     """Forces, centre and free moment over time, and the path.
 
@@ -33,10 +38,9 @@ def cop_figure(
     centre
         Centre of pressure [m], NaN where there is none.
     normal
-        Normal of the ground in each frame, NaN without contact: the path is seen along the axis nearest to it.
+        Mean normal of the ground, None without a centre: the path is seen along the axis nearest to it.
     """
-    known = normal[np.isfinite(normal[:, 0])]
-    up = int(np.argmax(np.abs(known.mean(axis=0)))) if len(known) else 1
+    up = 1 if normal is None else int(np.argmax(np.abs(normal)))
     right, ahead = ((2, 1), (2, 0), (0, 1))[up]
     columns = -(-len(sheet.panels) // ROWS)
     figure = empty((columns + 1) * 0.45 * DOUBLE, 0.055 * ROWS)
@@ -44,19 +48,20 @@ def cop_figure(
     for k, panel in enumerate(sheet.panels):
         draw_on(figure.add_subplot(grid[k % ROWS, k // ROWS]), panel, sheet.over)
     path = figure.add_subplot(grid[:, -1])
-    _path(path, time, centre * 1e3, right, ahead)
+    _path(path, time, centre, right, ahead)
     path.set_title(f"Centre of pressure seen along {'xyz'[up]}", loc="left")
     return figure
 
 
 def _path(axes: Axes, time: Float[np.ndarray, " t"], centre: Float[np.ndarray, "t 3"], right: int, ahead: int) -> None:
-    found = np.isfinite(centre[:, 0])
+    found = np.flatnonzero(np.isfinite(centre[:, 0]))
+    found = found[with_extremes(len(found), [centre[found, k] for k in (right, ahead)], DOTS)]
     axes.set_xlabel(f"{'xyz'[right]} [mm]")
     axes.set_ylabel(f"{'xyz'[ahead]} [mm]")
-    if not found.any():
+    if not len(found):
         axes.text(0.5, 0.5, "no centre of pressure", ha="center", va="center", transform=axes.transAxes)
         return
-    x, y = centre[found, right], centre[found, ahead]
+    x, y = centre[found, right] * MM, centre[found, ahead] * MM
     axes.plot(x, y, color=GREY, lw=0.8, zorder=1)
     dots = axes.scatter(x, y, c=time[found], s=9, cmap="viridis", zorder=2)
     axes.figure.colorbar(dots, ax=axes, label="time [s]", shrink=0.7)

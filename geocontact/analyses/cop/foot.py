@@ -18,7 +18,8 @@ from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
-from geocontact.data.motion import Motion
+from geocontact.data.frame_blocks import blocks, parts, release, room
+from geocontact.data.motion import MATRIX, Motion, poses_in_parts
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.plausible import FOOT_LAW, numbers_in
@@ -32,6 +33,7 @@ from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim import bodies_at_rest, read_joint
 from geocontact.io.opensim.osim_contact import read_contact_spheres
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law, read_spheres
+from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.ground import Ground, Sheet, Stairs, ground_of_surface
 from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
@@ -48,11 +50,19 @@ def smoothed_motion(motion: Motion, cutoff: float | None, file: Path) -> Motion:
     """
     if not cutoff:
         return motion
-    matrices = motion.poses.as_matrix().reshape(-1, 4, 4)
-    smooth = low_passed(motion.time, matrices[:, :3].reshape(-1, 12), cutoff, file, "`motion_cutoff`").reshape(-1, 3, 4)
-    left, _, right = np.linalg.svd(smooth[:, :, :3])
-    poses = RigidTransform.from_components(smooth[:, :, 3], Rotation.from_matrix(left @ right))
-    return replace(motion, poses=poses)
+    rows = room((len(motion), 12))
+    for some in blocks(len(motion), MATRIX):
+        rows[some] = motion.poses[some].as_matrix()[:, :3].reshape(-1, 12)
+        release()
+
+    def nearest(row: Float[np.ndarray, "t 12"]) -> RigidTransform:
+        smooth = row.reshape(-1, 3, 4)
+        left, _, right = np.linalg.svd(smooth[:, :, :3])
+        return RigidTransform.from_components(smooth[:, :, 3], Rotation.from_matrix(left @ right))
+
+    return replace(
+        motion, poses=poses_in_parts(nearest, low_passed(motion.time, rows, cutoff, file, "`motion_cutoff`"))
+    )
 
 
 def smoothed_plate(plate: ForcePlate, cutoff: float | None, file: Path) -> ForcePlate:
@@ -72,7 +82,7 @@ def low_passed(
     step = float(np.median(np.diff(time))) if len(time) > 1 else 0.0
     if step == 0.0 or np.abs(np.diff(time) - step).max() > 2.0 * UNEVEN * step:
         raise InputError(file, "time", "is not evenly spaced, as a filter needs it", remedy)
-    if not np.isfinite(values).all():
+    if not all(np.isfinite(part).all() for (part,) in parts(values)):
         raise InputError(file, "", "has gaps that a filter cannot cross", remedy)
     try:
         return zero_lag(values, step, cutoff)
@@ -257,7 +267,7 @@ def comparison_table(time: Float[np.ndarray, " t"], ours: CentreOfPressure, plat
     pairs.append(("free_moment [N m]", ours.free_moment[at], plate.free_moment))
     for name, mine, theirs in pairs:
         columns |= {name: mine, f"plate_{name}": theirs, f"difference_{name}": mine - theirs}
-    return pd.DataFrame(columns)
+    return frame_of(columns)
 
 
 def root_mean_squares(table: pd.DataFrame) -> dict[str, float | None]:

@@ -6,12 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.analyses.cop.foot import Foot
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.frame.result import Result
+from geocontact.data.frame_blocks import blocks, parts, release, worked
+from geocontact.data.motion import MATRIX
 from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normalised
+from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import CentreOfPressure, FootAxis
 from geocontact.loads.plate_load import PlateCurves
 from geocontact.loads.sphere_set import SphereLoads
@@ -58,16 +61,41 @@ def loads_table(r: FootLoads) -> pd.DataFrame:
         for name, unit, values in (("force", "N", c.wrench.force), ("cop", "m", c.centre))
         for k, axis in enumerate("xyz")
     }
-    return pd.DataFrame(
+    return frame_of(
         {
             "time [s]": r.foot.motion.time,
             **vectors,
             "free_moment [N m]": c.free_moment,
             "normal [N]": c.pressing,
-            "spheres [-]": np.count_nonzero(r.loads.depth > 0.0, axis=1),
-            "max_depth [m]": np.maximum(r.loads.depth.max(axis=1), 0.0),
+            "spheres [-]": worked(_touching, r.loads.depth),
+            "max_depth [m]": worked(_deepest, r.loads.depth),
         }
     )
+
+
+def _touching(depth: Float[np.ndarray, "t n"]) -> Int[np.ndarray, " t"]:
+    return np.asarray(np.count_nonzero(depth > 0.0, axis=1))
+
+
+def _deepest(depth: Float[np.ndarray, "t n"]) -> Float[np.ndarray, " t"]:
+    return np.asarray(np.maximum(depth.max(axis=1), 0.0))
+
+
+def mean_normal(r: FootLoads) -> Float[np.ndarray, " 3"] | None:
+    """Mean of the ground's normals where they are known; None where there is no centre of pressure."""
+    known, total = 0, np.zeros(3)
+    for (part,) in parts(r.centre.normal):
+        there = np.isfinite(part[:, 0])
+        known, total = known + int(there.sum()), total + part[there].sum(axis=0)
+    return total / known if known else None
+
+
+def reach_of_centre(r: FootLoads) -> Float[np.ndarray, " 3"]:
+    """Distance between the outermost centres of pressure along each axis of the ground [m]."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for (part,) in parts(r.centre.centre):
+        low, high = np.fmin(low, np.fmin.reduce(part)), np.fmax(high, np.fmax.reduce(part))
+    return high - low
 
 
 NAMES = {"ground": "ground_point", "sphere": "sphere_centre"}
@@ -91,9 +119,12 @@ def along_foot(r: FootLoads) -> pd.DataFrame | None:
         theirs[r.plate.frames] = r.plate.centre
         centres["plate"] = theirs
     for name, centre in centres.items():
-        distance = axis.from_heel(centre, poses)
+        distance = np.empty(len(centre))
+        for some in blocks(len(centre), MATRIX):
+            distance[some] = axis.from_heel(centre[some], poses[some])
+            release()
         columns |= {f"{name} [mm]": distance * MM, f"{name}{SHARE}": axis.share(distance)}
-    return pd.DataFrame(columns)
+    return frame_of(columns)
 
 
 def stances(r: FootLoads) -> list[Span]:

@@ -8,10 +8,11 @@ from scipy.spatial import ConvexHull
 
 from geocontact.analyses.cop.figure import PERCENT, stance_curves
 from geocontact.analyses.cop.foot import root_mean_squares
-from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot
+from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot, mean_normal, reach_of_centre
 from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
-from geocontact.data.motion import Course
+from geocontact.data.frame_blocks import blocks, release, worked
+from geocontact.data.motion import MATRIX, Course
 from geocontact.data.text import seconds
 from geocontact.loads.centre_of_pressure import path_length, points_in_foot
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet
@@ -55,11 +56,12 @@ def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
     edge = ConvexHull(corners).vertices
     zones = list(sole.zones.items())
     marks = [Mark(name, _edge(circles[which])) for name, which in zones] if len(zones) <= ZONES else []
-    tracks = [Track("centre of pressure", flat(points_in_foot(r.centre.centre, r.foot.motion.poses))[shown])]
+    poses = r.foot.motion.poses[shown]
+    tracks = [Track("centre of pressure", flat(points_in_foot(r.centre.centre[shown], poses)))]
     if r.plate is not None:
         there = np.full_like(r.centre.centre, np.nan)
         there[r.plate.frames] = r.plate.centre
-        tracks.append(Track("force plate", flat(points_in_foot(there, r.foot.motion.poses))[shown]))
+        tracks.append(Track("force plate", flat(points_in_foot(there[shown], poses))))
     outline = corners[[*edge, edge[0]]]
     return Plan(
         "Path under the foot",
@@ -79,69 +81,65 @@ def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
     None where there is no centre of pressure.
     """
     c = r.centre
-    found = np.isfinite(c.centre[:, 0])
-    if not found.any():
+    upward = _upward(r)
+    if upward is None:
         return None
-    normal = _mean(c.normal[found])
-    upward = int(np.argmax(np.abs(normal)))
-    along = _along(c.centre[found], upward)
+    reach, along = _along(r, upward)
     plane = [along, upward]
-    start, force = c.centre[:, plane] * MM, c.wrench.force[:, plane]
-    sizes = np.linalg.norm(force, axis=1)
-    most = float(sizes[found].max())
-    scale = _round_scale(TALL * max(float(np.ptp(start[found][:, 0])), LEAST * MM) / most)  # mm for 1 N
-    tip = start + scale * force
-    some = np.flatnonzero(found)
+    sizes = worked(lambda force: np.linalg.norm(force[:, plane], axis=1), c.wrench.force)
+    some = np.flatnonzero(np.isfinite(c.centre[:, 0]))
+    scale = _round_scale(TALL * max(reach, LEAST) * MM / float(sizes[some].max()))  # mm for 1 N
+
+    def ends(frames: Int[np.ndarray, " k"]) -> tuple[Float[np.ndarray, "k 2"], Float[np.ndarray, "k 2"]]:
+        start = c.centre[frames][:, plane] * MM
+        return start, start + scale * c.wrench.force[frames][:, plane]
+
     some = some[np.unique(np.linspace(0, len(some) - 1, VECTORS).astype(int))]
+    start, tip = ends(shown)
     words = f"Each line is the force in one frame, from its centre of pressure: 100 N are {100.0 * scale:g} mm long."
     return Plan(
         "Forces along the path (butterfly diagram)",
         "mm",
         axis_name(along),
         axis_name(upward),
-        [np.array([start[k], tip[k]]) for k in some],
-        [
-            Track("centre of pressure", start[shown]),
-            Track("force", np.where(found[:, None], tip, np.nan)[shown], [f"{size:.0f} N" for size in sizes[shown]]),
-        ],
+        list(np.stack(ends(some), axis=1)),
+        [Track("centre of pressure", start), Track("force", tip, [f"{size:.0f} N" for size in sizes[shown]])],
         words=words,
     )
 
 
 def travel(r: FootLoads) -> tuple[float, str]:
     """How far the centre of pressure goes on the ground [m], and along which axis it goes the most."""
-    found = np.isfinite(r.centre.centre[:, 0])
-    centre = r.centre.centre[found]
-    upward = int(np.argmax(np.abs(_mean(r.centre.normal[found]))))
-    along = _along(centre, upward)
-    return float(np.ptp(centre[:, along])), axis_name(along)
+    way, along = _along(r, _upward(r))
+    return way, axis_name(along)
 
 
-def _along(centre: Float[np.ndarray, "t 3"], upward: int) -> int:
-    """The axis of the ground along which a path is longest."""
-    reach = np.ptp(centre, axis=0)
-    reach[upward] = -1.0
-    return int(np.argmax(reach))
+def _along(r: FootLoads, upward: int | None) -> tuple[float, int]:
+    """How far the path goes along the axis of the ground along which it is longest [m], and that axis."""
+    reach = reach_of_centre(r)
+    across = [axis for axis in range(3) if axis != upward]
+    along = max(across, key=lambda axis: float(reach[axis]))
+    return float(reach[along]), along
 
 
 def _view_axes(r: FootLoads) -> tuple[int, int, float]:
     """Axes of the foot to the right and upwards in the drawing, and the sign of the latter, for a view from above."""
-    turned = r.foot.motion.poses.rotation.inv().as_matrix().reshape(-1, 3, 3)
-    known = np.isfinite(r.centre.normal[:, 0])
-    if known.any():
-        normal = _mean(np.einsum("tij,tj->ti", turned[known], r.centre.normal[known]))
-    else:
-        normal = -np.ptp(r.foot.sole.centre, axis=0) + np.ptp(r.foot.sole.centre)  # the thinnest way
+    known, seen = 0, np.zeros(3)
+    for some in blocks(len(r.foot.motion), MATRIX):
+        turned = r.foot.motion.poses[some].rotation.inv().as_matrix()
+        own = r.centre.normal[some]
+        there = np.isfinite(own[:, 0])
+        seen += np.einsum("tij,tj->i", turned[there], own[there])
+        known += int(there.sum())
+        release()
+    thinnest = np.ptp(r.foot.sole.centre) - np.ptp(r.foot.sole.centre, axis=0)
+    normal = seen / known if known else thinnest
     above = int(np.argmax(np.abs(normal)))
     sides = [(above + 1) % 3, (above + 2) % 3]
     reach = np.ptp(r.foot.sole.centre, axis=0)
     across, up = sorted(sides, key=lambda axis: -float(reach[axis]))
     right_handed = 1.0 if (across + 1) % 3 == up else -1.0
     return across, up, right_handed * (1.0 if normal[above] >= 0.0 else -1.0)
-
-
-def _mean(normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 3"]:
-    return np.asarray(normals.mean(axis=0))
 
 
 def _edge(circles: Float[np.ndarray, "n c 2"]) -> tuple[float, float]:
@@ -275,22 +273,22 @@ def cop_page(r: FootLoads) -> Page:
 
 def _rows(r: FootLoads, shown: Int[np.ndarray, " k"]) -> list[Row]:
     c = r.centre
-    touching = np.count_nonzero(r.loads.depth > 0.0, axis=1)
-    depth = np.maximum(r.loads.depth.max(axis=1), 0.0)
+    own = r.loads.depth[shown]
+    touching, depth = np.count_nonzero(own > 0.0, axis=1), np.maximum(own.max(axis=1), 0.0)
     return [
         Row("normal force", "N", _texts(c.pressing[shown], 1)),
         *(Row(f"force {axis}", "N", _texts(c.wrench.force[shown, k], 1)) for k, axis in enumerate("xyz")),
         *(Row(f"centre of pressure {axis}", "mm", _texts(c.centre[shown, k] * MM, 1)) for k, axis in enumerate("xyz")),
         Row("free moment", "N m", _texts(c.free_moment[shown], 2)),
-        Row("spheres that touch", "", [str(count) for count in touching[shown]]),
-        Row("greatest depth", "mm", _texts(depth[shown] * MM, 2)),
+        Row("spheres that touch", "", [str(count) for count in touching]),
+        Row("greatest depth", "mm", _texts(depth * MM, 2)),
     ]
 
 
 def load_curves(r: FootLoads) -> CurveSheet:
     """Force, centre and free moment over time, each beside the plate's where there is one."""
     c, plate, axes = r.centre, r.plate, "xyz"
-    force, centre, moment = c.wrench.force, c.centre * MM, _plain(c.free_moment)
+    force, centre, moment = c.wrench.force, worked(lambda part: part * MM, c.centre), worked(_plain, c.free_moment)
     if plate is None:
         panels = [
             Curves("Force on the foot", "N", [Curve(axis, force[:, k]) for k, axis in enumerate(axes)]),
@@ -343,8 +341,8 @@ def _plate_at(r: FootLoads, values: Float[np.ndarray, "f n"]) -> Float[np.ndarra
 
 def _upward(r: FootLoads) -> int | None:
     """Axis nearest to the ground's normal; None where there is no centre."""
-    known = r.centre.normal[np.isfinite(r.centre.normal[:, 0])]
-    return int(np.argmax(np.abs(known.mean(axis=0)))) if len(known) else None
+    normal = mean_normal(r)
+    return None if normal is None else int(np.argmax(np.abs(normal)))
 
 
 def _comparison(r: FootLoads) -> list[Table]:

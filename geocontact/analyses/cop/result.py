@@ -22,18 +22,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.analyses.cop.figure import cop_figure
 from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
-from geocontact.analyses.cop.loads import NAMES, SHARE, FootLoads, along_foot, loads_table, stance_table, stances
+from geocontact.analyses.cop.loads import (
+    NAMES,
+    SHARE,
+    FootLoads,
+    along_foot,
+    loads_table,
+    mean_normal,
+    stance_table,
+    stances,
+)
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.cop.page import cop_page, load_curves
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT
 from geocontact.data.errors import InputError
-from geocontact.loads.centre_of_pressure import POINTS, FootAxis, axis_of_sole
+from geocontact.data.frame_blocks import parts, worked
+from geocontact.io.text.results import frame_of
+from geocontact.loads.centre_of_pressure import POINTS, FootAxis, Smooth, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
 from geocontact.loads.resultant import pose_rate
 from geocontact.loads.sphere_set import SphereLoads, clearance, sphere_loads
@@ -84,7 +95,7 @@ class CopResult(FootLoads):
     def figures(self) -> dict[str, Figure]:
         """`cop`: forces, centre and free moment over time, and the path seen from above."""
         time, c = self.foot.motion.time, self.centre
-        return {"cop": cop_figure(load_curves(self), time, c.centre, c.normal)}
+        return {"cop": cop_figure(load_curves(self), time, c.centre, mean_normal(self))}
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """The path under the foot, the forces along it, and their numbers in every frame."""
@@ -99,7 +110,7 @@ class CopResult(FootLoads):
     def _zones_table(self) -> pd.DataFrame:
         """Normal force of every zone."""
         forces = {f"{name} [N]": force for name, force in self.zones.items()}
-        return pd.DataFrame({"time [s]": self.foot.motion.time, **forces})
+        return frame_of({"time [s]": self.foot.motion.time, **forces})
 
 
 NEAR = 20e-3  # m; a foot that never comes this close is a mistake in the input
@@ -127,12 +138,17 @@ def run(foot: Foot, o: CopOptions) -> CopResult:
         centre=centre,
         centres={point: each.centre for point, each in found.items()},
         axis=None if o.toe is None else _axis(foot, o.toe, o.foot_length),
-        zones={zone: smooth(loads.pressing[:, own]).sum(axis=1) for zone, own in foot.sole.zones.items()},
+        zones={zone: _zone_force(loads, own, smooth) for zone, own in foot.sole.zones.items()},
         plate=curves,
         comparison=comparison,
     )
     _summarise(result)
     return result
+
+
+def _zone_force(loads: SphereLoads, own: Bool[np.ndarray, " n"], smooth: Smooth) -> Float[np.ndarray, " t"]:
+    of_zone = worked(lambda part: np.ascontiguousarray(part[:, own]), loads.pressing)
+    return worked(lambda part: part.sum(axis=1), smooth(of_zone))
 
 
 def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
@@ -155,16 +171,15 @@ def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
 
 
 def _reserve_oddities(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
-    touching = loads.depth > 0.0
-    if not touching.any():
+    if not any((part > 0.0).any() for (part,) in parts(loads.depth)):
         gap = clearance(foot.sole, loads, foot.ground)
         if gap > NEAR:
             what = f"the foot stays {gap * 1e3:.0f} mm above the ground in every frame"
             raise InputError(o.motion, "", what, REMEDY)
         reserve(f"no sphere touches the ground; the nearest comes within {gap * 1e3:.2f} mm")
-    beneath = (loads.depth > foot.sole.radius).any(axis=1)
-    if beneath.any():
-        reserve(f"centres of spheres are under the ground in {int(beneath.sum())} frames: too soft, or misplaced")
+    beneath = sum(int((part > foot.sole.radius).any(axis=1).sum()) for (part,) in parts(loads.depth))
+    if beneath:
+        reserve(f"centres of spheres are under the ground in {beneath} frames: too soft, or misplaced")
 
 
 def _summarise(r: CopResult) -> None:

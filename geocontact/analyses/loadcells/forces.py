@@ -26,6 +26,7 @@ from geocontact.identify.signals.cycles import STEPS, Span, loaded_spans, normal
 from geocontact.identify.signals.filters import gaps
 from geocontact.io.recordings.load_cells import CellRecording, read_cycle_table, read_load_cells, read_regression
 from geocontact.io.text.columns import parse_map
+from geocontact.io.text.results import frame_of
 from geocontact.loads.loadcells import PUBLISHED, CompartmentForces, compartment_forces
 from geocontact.trial_checks.channel_checks import odd_rate
 from geocontact.view.curves.quantity import SERIES
@@ -175,7 +176,7 @@ class RecordedCells:
     def table(self) -> pd.DataFrame:
         """Forces of the compartments over time."""
         columns = {f"{side} [N]": values for side, values in self.forces.curves.items()}
-        return pd.DataFrame({"time [s]": self.forces.time, **columns})
+        return frame_of({"time [s]": self.forces.time, **columns})
 
 
 SHARE = 0.25  # of the largest total force, at which load sets in unless told otherwise

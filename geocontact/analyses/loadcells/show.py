@@ -16,7 +16,7 @@ from geocontact.data.motion import Course
 from geocontact.data.text import seconds
 from geocontact.data.trial import mean_and_sd
 from geocontact.identify.signals.cycles import STEPS
-from geocontact.identify.signals.filters import broken, gaps
+from geocontact.identify.signals.filters import gaps
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade, mean_curve
 from geocontact.view.extremes import FRAMES
 from geocontact.view.page.content import (
@@ -93,12 +93,14 @@ def samples(
     after = np.array([np.searchsorted(time, each.end) for each in missing], int)
     kept = np.unique(np.concatenate([thinned(len(time), curves, most=most), after, after - 1])).astype(int)
     step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
-    lost = np.maximum(np.rint(np.diff(time) / step).astype(int) - 1, 0)
-    lost[np.setdiff1d(np.arange(len(lost)), after - 1)] = 0
-    by_clock = np.arange(1, len(time) + 1) + np.concatenate([[0], np.cumsum(lost)])
-    shown, _ = broken(time, time)
-    shown = np.unique(np.concatenate([time[kept], np.setdiff1d(shown, time)]))
-    numbers = np.rint(np.interp(shown, time, by_clock)).astype(int)
+    lost = np.maximum(np.rint((time[after] - time[after - 1]) / step).astype(int) - 1, 0)
+    place = np.unique(
+        np.concatenate([kept, after, after - 1, [0, len(time) - 1]])
+    )  # between two of them nothing is lost
+    by_clock = place + 1 + np.concatenate([[0], np.cumsum(lost)])[np.searchsorted(after, place, side="right")]
+    middles = np.array([0.5 * (each.start + each.end) for each in missing])
+    shown = np.unique(np.concatenate([time[kept], middles]))
+    numbers = np.rint(np.interp(shown, time[place], by_clock)).astype(int)
     return Samples(time, kept, shown, numbers, int(by_clock[-1]))
 
 

@@ -16,7 +16,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.motion import Motion
+from geocontact.data.motion import Motion, poses_in_parts
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.knee_angles import SIGN, tibia_in_femur
 from geocontact.data.plausible import LARGEST_MEANT
@@ -224,10 +224,15 @@ def motion_from_csv(path: str | PathLike[str], order: str | None = None, angles:
     if euler:
         if order is None:
             raise InputError(table.file, "", "Euler columns without an order", "pass `order`, e.g. `order` XYZ")
-        turned = Rotation.from_euler(_sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order))
+        sequence, turned = _sequence(order, "XYZ"), _in_order(angles_of(table, _TURNS, angles), order)
     else:
-        turned = rotations_of(table) if matrix else _quaternions(table)
-    poses = RigidTransform.from_components(lengths(table, _SHIFTS), turned)
+        sequence, turned = "", (rotations_of(table) if matrix else _quaternions(table)).as_quat()
+
+    def posed(shift: Float[np.ndarray, "t 3"], turn: Float[np.ndarray, "t k"]) -> RigidTransform:
+        rotation = Rotation.from_euler(sequence, turn) if sequence else Rotation.from_quat(turn)
+        return RigidTransform.from_components(shift, rotation)
+
+    poses = poses_in_parts(posed, lengths(table, _SHIFTS), turned)
     heeded = frozenset({"order", "angles"} if euler else ())
     return Motion(table.time, poses, table.file, table.time_unit, heeded=heeded)
 

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
+from geocontact.data.frame_blocks import parts, release, room
 from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
 from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
 from geocontact.io.text.toml_text import toml_of
@@ -114,8 +115,11 @@ def read_load_cells(
         raise InputError(table.file, "", what, f"name it, `map` {','.join(f'{cell}=…' for cell, _ in missing)}")
     columns = [(sign, *column_in_newtons(table, name, unit)) for sign, name in sources]
     units = {said for _, _, said in columns}
-    forces = np.column_stack([sign * values for sign, values, _ in columns])
-    largest = float(np.abs(forces.sum(axis=1)).max())
+    forces = room((len(table.time), len(columns)))
+    for cell, (sign, values, _) in zip(forces.T, columns, strict=True):
+        cell[:] = sign * values
+        release()
+    largest = max(float(np.abs(part.sum(axis=1)).max()) for (part,) in parts(forces))
     if largest > STRONGEST:
         what = f"all cells together reach {largest:.0f} N"
         raise InputError(table.file, "", what, f"is the file in {', '.join(sorted(units))} at all? see `unit`")

@@ -12,8 +12,9 @@ import numpy as np
 import pandas as pd
 from pandas.api.types import is_float_dtype
 
+from geocontact.data import frame_blocks
 from geocontact.data.errors import InputError
-from geocontact.data.frame_blocks import release
+from geocontact.data.frame_blocks import blocks, release, room
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
 from geocontact.data.text import is_late, seconds
@@ -58,6 +59,24 @@ def read_frame(path: Path, wanted: Iterable[str], remedy: str) -> pd.DataFrame:
 def named(table: pd.DataFrame, wanted: Iterable[str]) -> pd.DataFrame:
     """The table with the columns that are wanted named so, where only upper and lower case differ."""
     return table.rename(columns=dict(spelled_as(wanted, table.columns)))
+
+
+def frame_of(columns: Mapping[str, np.ndarray]) -> pd.DataFrame:
+    """A data frame of columns of the same length; numbers of a long one lie in a file (`data.frame_blocks`)."""
+    floats = [name for name, values in columns.items() if values.dtype == np.float64]
+    count = len(columns[floats[0]]) if floats else 0
+    if count * len(floats) <= frame_blocks.AT_ONCE:
+        return pd.DataFrame(columns)
+    values = room((len(floats), count))
+    for row, name in zip(values, floats, strict=True):
+        for some in blocks(count, 1):
+            row[some] = columns[name][some]
+            release()
+    frame = pd.DataFrame(values.T, columns=pd.Index(floats), copy=False)
+    for place, name in enumerate(columns):
+        if name not in floats:
+            frame.insert(place, name, columns[name])
+    return frame
 
 
 RESULTS: Mapping[str, str] = MappingProxyType(

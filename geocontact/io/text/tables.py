@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import re
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from array import array
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from io import TextIOBase
 from os import PathLike, fspath
@@ -15,6 +16,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.frame_blocks import Growing, blocks, release, room
 from geocontact.data.magnitude import too_large
 from geocontact.data.motion import Signals
 from geocontact.data.plausible import TOO_LARGE
@@ -33,8 +35,7 @@ def read_rows(
     stream: Iterable[str], first: int, names: tuple[str, ...], file: str, split: Callable[[str, None, int], list[str]]
 ) -> tuple[Float[np.ndarray, "t c"], Int[np.ndarray, " t"]]:
     """Numbers below the labels and the line of each row; blank lines are passed over."""
-    blocks: list[Float[np.ndarray, "r c"]] = []
-    lines: list[int] = []
+    values, lines = Growing(), array("q")
     rows: list[list[str]] = []
     plain = True
     for number, line in enumerate(stream, first):
@@ -47,13 +48,13 @@ def read_rows(
         rows.append(cells)
         lines.append(number)
         if len(rows) == _BLOCK:
-            blocks.append(_numbers(rows, lines[-_BLOCK:], names, file, plain))
+            values.extend_by(_numbers(rows, lines[-_BLOCK:], names, file, plain))
             rows, plain = [], True
     if not lines:
         raise InputError(file, f"line {first}", "no rows below the column labels", "is the file complete?")
     if rows:
-        blocks.append(_numbers(rows, lines[-len(rows) :], names, file, plain))
-    return np.concatenate(blocks), np.array(lines, dtype=np.int64)
+        values.extend_by(_numbers(rows, lines[-len(rows) :], names, file, plain))
+    return values.values().reshape(-1, len(names)), np.array(lines, dtype=np.int64)
 
 
 def unequal(cells: int, line: str, named: int, file: str, number: int) -> InputError:
@@ -66,7 +67,7 @@ def unequal(cells: int, line: str, named: int, file: str, number: int) -> InputE
 
 
 def _numbers(
-    rows: list[list[str]], lines: list[int], names: tuple[str, ...], file: str, plain: bool
+    rows: list[list[str]], lines: Sequence[int], names: tuple[str, ...], file: str, plain: bool
 ) -> Float[np.ndarray, "r c"]:
     """Cells as floats; `plain` rules out what Python takes for a number and a table does not mean as one."""
     values = _plain(rows) if plain else None
@@ -304,7 +305,7 @@ def _table(
     time, time_unit = _time(values[:, places[0]], unit, lines, file)
     return TextTable(
         time=time,
-        values=values[:, rest],
+        values=_columns(values, rest),
         channels=ColumnNames(names[i] for i in rest),
         units=tuple(units[i] for i in rest),
         file=file,
@@ -314,6 +315,15 @@ def _table(
         time_unit=time_unit,
         words=tuple(names[i] for i in sorted(words)),
     )
+
+
+def _columns(values: Float[np.ndarray, "t c"], places: list[int]) -> Float[np.ndarray, "t k"]:
+    """Some of the columns, each of them lying together: who reads one of a long table reads no other."""
+    found = room((len(places), len(values)))
+    for some in blocks(len(values), values.shape[1]):
+        found[:, some] = values[some][:, places].T
+        release()
+    return found.T
 
 
 def _time(
