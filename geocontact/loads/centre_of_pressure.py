@@ -208,4 +208,4 @@ def _times(pressing: Float[np.ndarray, " t"], own: Float[np.ndarray, "t 3"]) -> 
 
 def _over(moment: Float[np.ndarray, "t 3"], pressing: Float[np.ndarray, "t 1"]) -> Float[np.ndarray, "t 3"]:
     """The centre that a moment of normal forces belongs to; 0 where none presses."""
-    return np.divide(moment, pressing, out=np.zeros_like(moment), where=pressing > 0.0)
+    return np.asarray(np.divide(moment, pressing, out=np.zeros_like(moment), where=pressing > 0.0))

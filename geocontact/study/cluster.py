@@ -159,7 +159,7 @@ def job_options(
         "queue": asked.queue,
         own.account: asked.account,
         "walltime": asked.walltime,
-        "python": shlex.quote(sys.executable),
+        "python": f"{shlex.quote(sys.executable)} -P",  # not from the folder of the study
         "job_name": "geocontact",
         "log_directory": str(folder / LOGS),
         "job_script_prologue": [

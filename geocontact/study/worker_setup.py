@@ -8,6 +8,8 @@ import os
 import signal
 import sys
 
+from geocontact.analyses.frame.workers import leave_programs_their_folder
+
 PR_SET_PDEATHSIG = 1
 """Option of Linux' prctl(2): the signal that the system sends when the thread that started this process is gone.
 
@@ -18,6 +20,7 @@ Dask starts each of them in a thread of its own, which it keeps until the proces
 def dask_setup(worker: object) -> None:
     """Leave Ctrl-C to the process that started the study, which then ends its workers; end where it is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    leave_programs_their_folder()
     starter = multiprocessing.parent_process()
     if starter is not None and starter.pid is not None:
         _end_with(starter.pid)

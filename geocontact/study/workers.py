@@ -17,7 +17,7 @@ from operator import length_hint
 from typing import Any
 
 from geocontact.analyses.frame.collector import listener
-from geocontact.analyses.frame.workers import cores
+from geocontact.analyses.frame.workers import cores, current_folder_closed
 from geocontact.data.errors import InputError
 from geocontact.study.cluster import THREADS, Jobs
 from geocontact.study.limits import NO_LIMITS, TrialLimits
@@ -148,7 +148,7 @@ def workers_of(o: CohortOptions, limits: TrialLimits = NO_LIMITS, jobs: Jobs | N
         logging.getLogger(name).setLevel(logging.CRITICAL)
     found = Workers(o, distributed, limits, jobs)
     # a process that is a daemon can start none, which analyses on several cores do
-    with dask.config.set(SETTINGS | {"distributed.worker.daemon": limits.cores == 1}):
+    with current_folder_closed(), dask.config.set(SETTINGS | {"distributed.worker.daemon": limits.cores == 1}):
         try:
             found.start()
             yield found

@@ -95,7 +95,7 @@ def reach_of_centre(r: FootLoads) -> Float[np.ndarray, " 3"]:
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for (part,) in parts(r.centre.centre):
         low, high = np.fmin(low, np.fmin.reduce(part)), np.fmax(high, np.fmax.reduce(part))
-    return high - low
+    return np.asarray(high - low)
 
 
 NAMES = {"ground": "ground_point", "sphere": "sphere_centre"}

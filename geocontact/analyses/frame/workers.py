@@ -7,6 +7,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from typing import TypeVar
 
@@ -31,9 +32,11 @@ def each(
     if count <= 1:
         yield from ((task, work(task)) for task in tasks)
         return
-    pool = ProcessPoolExecutor(count, get_context("spawn"), _begin)
+    with current_folder_closed():  # its locks have a process too
+        pool = ProcessPoolExecutor(count, get_context("spawn"), _begin)
     try:
-        futures = {pool.submit(work, task): task for task in tasks}
+        with current_folder_closed():
+            futures = {pool.submit(work, task): task for task in tasks}
         for future in as_completed(futures):
             error = future.exception()
             yield futures[future], future.result() if error is None else error
@@ -41,8 +44,37 @@ def each(
         pool.shutdown(cancel_futures=True)
 
 
+SAFE_PATH = "PYTHONSAFEPATH"
+"""Where it is set, Python begins without the current folder among those that it searches for modules (3.11, -P)."""
+OURS = "geocontact"
+"""Its value where this program has set it, and not who started it."""
+
+
+@contextmanager
+def current_folder_closed() -> Iterator[None]:
+    """Python processes that begin meanwhile run no module of the current folder: a signal.py beside the data.
+
+    A process of `multiprocessing` else searches that folder until it has the paths of the one that started it.
+    """
+    if os.environ.get(SAFE_PATH):
+        yield
+        return
+    os.environ[SAFE_PATH] = OURS
+    try:
+        yield
+    finally:
+        os.environ.pop(SAFE_PATH, None)
+
+
+def leave_programs_their_folder() -> None:
+    """In a process that began so: programs that it starts find modules beside them, as they do elsewhere."""
+    if os.environ.get(SAFE_PATH) == OURS:
+        del os.environ[SAFE_PATH]
+
+
 def _begin() -> None:
     """A worker ends at once with Ctrl-C, and with the process that started it."""
+    leave_programs_their_folder()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

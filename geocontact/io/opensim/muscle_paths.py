@@ -71,7 +71,7 @@ def muscle_paths(
         given = {"model": str(model.absolute()), "names": list(coordinates), "values": values, "beyond": list(beyond)}
         np.savez(asked, **given)  # type: ignore[arg-type]
         run = subprocess.run(
-            [sys.executable, "-c", f"from {__name__} import answer; answer({str(asked)!r}, {str(found)!r})"],
+            [sys.executable, "-P", "-c", f"from {__name__} import answer; answer({str(asked)!r}, {str(found)!r})"],
             cwd=folder,
             env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
             capture_output=True,
