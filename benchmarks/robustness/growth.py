@@ -187,7 +187,7 @@ def inverse_dynamics(folder: Path, n: int) -> list[str]:
 
 COMMANDS: dict[str, tuple[Callable[[Path, int], list[str]], tuple[int, ...]]] = {
     "loadcells": (loadcells, (1_000, 10_000, 100_000, 1_000_000)),
-    "cop": (cop, (1_000, 10_000, 30_000, 100_000)),
+    "cop": (cop, (1_000, 10_000, 100_000, 1_000_000)),
     "mat": (mat, (1_000, 10_000, 40_000, 100_000)),
     "mat, 16 cells": (insole, (10_000, 40_000, 90_000, 360_000)),
     "area": (area, (11, 101, 303, 1_010)),

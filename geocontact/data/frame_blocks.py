@@ -51,7 +51,7 @@ def worked(made: Callable[..., np.ndarray], values: np.ndarray, *others: np.ndar
 def worked_together(
     made: Callable[..., tuple[np.ndarray, ...]], values: np.ndarray, *others: np.ndarray, each: int = 0
 ) -> tuple[np.ndarray, ...]:
-    """As `worked`, of a function that gives several arrays for each part."""
+    """What `made` gives for each part where that is several arrays, each joined as by `worked`."""
     found: tuple[np.ndarray, ...] = ()
     start = 0
     for some in parts(values, *others, each=each):

@@ -338,6 +338,7 @@ ATTACKS = {
     "cohort starts it": f"{HERE}test_no_file_starts_what_it_names_by_itself",
     "a case names a program": "tests/io/test_gap_case.py::test_a_program_is_not_run_unasked",
     "a module beside the study": f"{HERE}test_an_analysis_in_a_module_of_others_is_not_imported",
+    "a signal.py in the current folder": "tests/study/test_current_folder.py::test_workers_of_a_study",
     "other users reach the workers": f"{HERE}test_processes_of_a_study_refuse_other_users_of_the_machine",
     "they reach jobs": "tests/study/test_jobs.py::test_a_job_asks_for_what_the_description_says",
     "[cluster] speaks to a shell": "tests/study/test_jobs.py::test_no_text_of_a_description_reaches_a_shell",

@@ -45,9 +45,9 @@ def each(
 
 
 SAFE_PATH = "PYTHONSAFEPATH"
-"""Where it is set, Python begins without the current folder among those that it searches for modules (3.11, -P)."""
+"""The variable that keeps the current folder out of those that Python searches for modules (3.11, -P)."""
 OURS = "geocontact"
-"""Its value where this program has set it, and not who started it."""
+"""The value of `SAFE_PATH` where this program has set it, and not who started it."""
 
 
 @contextmanager
@@ -67,7 +67,7 @@ def current_folder_closed() -> Iterator[None]:
 
 
 def leave_programs_their_folder() -> None:
-    """In a process that began so: programs that it starts find modules beside them, as they do elsewhere."""
+    """Programs that a process which began so starts find modules beside them, as they do elsewhere."""
     if os.environ.get(SAFE_PATH) == OURS:
         del os.environ[SAFE_PATH]
 
