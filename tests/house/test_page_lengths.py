@@ -11,12 +11,12 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 25_750, "everything": 86_960}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_090, "everything": 87_550}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
 controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the
-plane, pairs of bodies, and keys and checks of made pages."""
+plane, pairs of bodies, keys and checks of made pages; marker sets, folders and an exoskeleton of one's own."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -26,7 +26,7 @@ LIMITS = {
     "how-to/figures.md": 440,
     "how-to/fit.md": 640,
     "how-to/gap.md": 2010,
-    "how-to/inverse.md": 1250,
+    "how-to/inverse.md": 1340,
     "how-to/knee_chain.md": 1050,
     "how-to/knee_settle.md": 920,
     "how-to/loadcells.md": 600,
@@ -49,7 +49,7 @@ LIMITS = {
     "how-to/regions_and_sides.md": 330,
     "how-to/shoulder.md": 1060,
     "how-to/shoulder_support.md": 930,
-    "how-to/sit_to_stand.md": 1090,
+    "how-to/sit_to_stand.md": 1110,
     "how-to/sit_to_stand_design.md": 340,
     "how-to/units.md": 360,
     "reference/accuracy.md": 330,
@@ -69,7 +69,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1060,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1680,
+    "reference/written_files.md": 1700,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -83,7 +83,7 @@ LIMITS = {
     "theory/mat_draping.md": 1070,
     "theory/multibody.md": 690,
     "theory/planar_joint.md": 500,
-    "reference/descriptions.md": 3740,
+    "reference/descriptions.md": 3870,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
     "theory/prosthesis_compare.md": 790,
