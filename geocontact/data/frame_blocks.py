@@ -14,7 +14,7 @@ import mmap
 import os
 from array import array
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from tempfile import TemporaryFile, gettempdir
 from typing import IO, Any
 from weakref import WeakSet, finalize
@@ -115,17 +115,23 @@ class Growing:
         if self._file is None:
             return np.frombuffer(self._near) if self._near else np.empty(0)
         self._put_away()
-        self._file.flush()
         return _mapped(self._file, np.dtype(float))
 
     def _put_away(self) -> None:
         if self._file is None:
             self._file = TemporaryFile()  # noqa: SIM115 - closed with this object; what is mapped of it stays
-            finalize(self, self._file.close)
+            finalize(self, _close, self._file)
         with _space(8 * len(self)):
             self._near.tofile(self._file)
+            self._file.flush()
         self._before += len(self._near)
         self._near = array("d")
+
+
+def _close(file: IO[bytes]) -> None:
+    """What it could not hold was said when it was written."""
+    with suppress(OSError):
+        file.close()
 
 
 def _mapped(file: IO[bytes], kind: np.dtype[Any]) -> np.ndarray:

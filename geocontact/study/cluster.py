@@ -22,6 +22,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
+from geocontact.analyses.frame.workers import OURS, SAFE_PATH
 from geocontact.data.errors import InputError
 from geocontact.io.documents import Document, Holds, Word, refusal
 from geocontact.study.limits import TRIES, Count, Size, TrialLimits, bytes_of, size_text
@@ -166,6 +167,7 @@ def job_options(
             *(dask.config.get(f"jobqueue.{system}.job-script-prologue", None) or []),
             f"export {threads}",
             f"export {closed}",
+            FREE,
             *([KEEPS] if NANNY * size.memory < size.processes * TRIES * (limits.memory or 0) else []),
         ],
         "worker_extra_args": [f"{LONG}nthreads", "1", f"{LONG}no-dashboard"],  # the last one counts
@@ -178,6 +180,8 @@ def job_options(
     return {name: value for name, value in found.items() if value is not None}
 
 
+FREE = f"""if [ "${SAFE_PATH}" = {OURS} ]; then unset {SAFE_PATH}; fi"""
+"""A job is handed the environment of who submits it; programs that its trials start search their folder as elsewhere."""
 THREADS = ("OMP_NUM_THREADS", "NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 

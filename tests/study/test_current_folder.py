@@ -32,16 +32,28 @@ STARTED_BY = {
 """Every module that starts processes, and which."""
 
 
+NAMES = ("get_context", "Process", "Pool", "ProcessPoolExecutor", "LocalCluster", "forkpty", "fork")
+CALLS = {
+    "os": ("system", "popen", "fork", "forkpty"),
+    "distributed": ("LocalCluster",),
+    "multiprocessing": ("Process", "Pool", "get_context"),
+    "asyncio": ("create_subprocess_exec", "create_subprocess_shell"),
+}
+"""What starts a process, by name and by module."""
+
+
 def starts(tree: ast.AST) -> bool:
     """Whether a module imports subprocess, or calls what starts processes."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import) and any(each.name == "subprocess" for each in node.names):
             return True
-        if isinstance(node, ast.Attribute) and node.attr in ("LocalCluster", "posix_spawn", "execv", "system", "popen"):
-            owner = node.value.id if isinstance(node.value, ast.Name) else ""
-            if owner in ("os", "distributed"):
+        if isinstance(node, ast.ImportFrom) and node.module == "subprocess":
+            return True
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            calls = CALLS.get(node.value.id, ())
+            if node.attr in calls or (node.value.id == "os" and node.attr.startswith(("spawn", "exec", "posix_spawn"))):
                 return True
-        if isinstance(node, ast.ImportFrom) and any(each.name == "get_context" for each in node.names):
+        if isinstance(node, ast.ImportFrom) and any(each.name in NAMES for each in node.names):
             return True
     return False
 

@@ -160,6 +160,8 @@ def test_a_job_asks_for_what_the_description_says(tmp_path: Path, stand_ins: Pat
     assert address.startswith("tls://") and "--tls-key" in worker and f"{tmp_path}/jobs/" in worker
     assert re.findall(r"--nthreads (\d)", worker)[-1] == "1" and "--nworkers 2 " in worker
     assert "--memory-limit 3.73GiB" in worker and "--no-dashboard" in worker  # 4 GB are 3.725 of 2^30
+    assert " -P -m distributed.cli.dask_worker" in worker  # no module of the folder of the study
+    assert script.index("unset PYTHONSAFEPATH") < script.index(worker)
     assert "module load knees" in script and "export OMP_NUM_THREADS=2 NUMBA_NUM_THREADS=2" in script
     assert modes == {0o600} and names and not list((tmp_path / "jobs").glob(".dask*"))
 
