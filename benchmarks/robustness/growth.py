@@ -284,7 +284,14 @@ def main() -> None:
     kept = [Run(**one) for each in before if each["command"] not in given.only for one in each["runs"]]
     found: dict[object, Mapping[str, Any]] = {each["command"]: each for each in table([*kept, *runs])}
     ordered = [found[command] for command in COMMANDS if command in found]
-    print(write_results("growth", {"largest": given.largest}, ordered, {"numpy", "pandas", "scipy", "numba"}))
+    print(
+        write_results(
+            "growth",
+            {"largest": given.largest if given.largest < sys.maxsize else None},
+            ordered,
+            {"numpy", "pandas", "scipy", "numba"},
+        )
+    )
     print("\n".join(lines(ordered)))
 
 

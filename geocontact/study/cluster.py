@@ -181,7 +181,7 @@ def job_options(
 
 
 FREE = f"""if [ "${SAFE_PATH}" = {OURS} ]; then unset {SAFE_PATH}; fi"""
-"""A job is handed the environment of who submits it; programs that its trials start search their folder as elsewhere."""
+"""A job has the environment of who submits it; programs that its trials start search their folder as elsewhere."""
 THREADS = ("OMP_NUM_THREADS", "NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 

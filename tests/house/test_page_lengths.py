@@ -67,7 +67,7 @@ LIMITS = {
     "reference/opensim_models.md": 600,
     "reference/paper_004.md": 1180,
     "reference/real_implants.md": 550,
-    "reference/speed.md": 1060,
+    "reference/speed.md": 1070,
     "reference/terms.md": 540,
     "reference/written_files.md": 1700,
     "theory/centre_of_pressure.md": 590,
