@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_090, "everything": 87_550}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_090, "everything": 87_580}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
@@ -67,7 +67,7 @@ LIMITS = {
     "reference/opensim_models.md": 600,
     "reference/paper_004.md": 1180,
     "reference/real_implants.md": 550,
-    "reference/speed.md": 1070,
+    "reference/speed.md": 1080,
     "reference/terms.md": 540,
     "reference/written_files.md": 1700,
     "theory/centre_of_pressure.md": 590,
