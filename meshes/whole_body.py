@@ -103,7 +103,13 @@ def main(folder: Path = HERE / "whole_body") -> None:
         force, place, moment = (np.column_stack([own.column(f"{of}{a}") for a in "xyz"]) for of in kinds)
         loads[name] = np.hstack([force, moment + np.cross(place, force)])
     feet = loads["feet"]
-    write_plates(folder, own.time, {"right": SHARE * feet, "left": (1.0 - SHARE) * feet, "chair": loads["chair"]})
+    shares = {"right": beside(SHARE * feet, WIDE), "left": beside((1.0 - SHARE) * feet, -WIDE)}
+    write_plates(folder, own.time, {**shares, "chair": loads["chair"]})
+
+
+def beside(load: np.ndarray, off: float) -> np.ndarray:
+    """The same force and moment about the origin of the plane, `off` [m] to the right."""
+    return load + np.hstack([np.zeros((len(load), 3)), np.cross([0.0, 0.0, off], load[:, :3])])
 
 
 if __name__ == "__main__":

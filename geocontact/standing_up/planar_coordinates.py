@@ -17,6 +17,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import Body, Multibody
+from geocontact.standing_up.plate_places import BodySites
 
 LEG_JOINTS = ("hip", "knee", "ankle")
 UP = np.array([0.0, 1.0, 0.0])
@@ -88,8 +89,7 @@ def planar_motion(
     for side in used:
         hip, knee, ankle = (at[side][name] for name in LEG_JOINTS)
         foot = max(groups[f"{side} foot"], key=lambda body: body.mass).name
-        ahead = default[foot].rotation.inv().apply(_forwards_at_rest(default, legs))[0]
-        toes = poses[foot].rotation.apply(ahead)
+        toes = _toes(poses, default, foot, legs)
         turns[side] = {
             "foot": np.arctan2(toes[:, 1], toes @ forwards),
             "shank": _turn(knee - ankle, forwards),
@@ -104,6 +104,29 @@ def planar_motion(
     q = np.column_stack([mean["foot_x"], mean["foot_y"], mean["foot"], *joints])
     apart = {name: turns["right"][name] - turns["left"][name] for name in mean} if len(used) == 2 else {}
     return PlanarMotion(q, forwards, apart, leaning, _own(poses, default, groups, legs, used, forwards))
+
+
+def body_sites(
+    model: Multibody, time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"], legs: Mapping[str, BodyLeg]
+) -> BodySites:
+    """Ankles, feet, hips and knees in the frame of the ground, for the plates under them; arguments as above."""
+    poses, groups = model.poses(values), _groups(model, legs)
+    default = model.poses(np.array([[c.default for c in model.coordinates]]))
+    heaviest = {side: max(groups[f"{side} foot"], key=lambda body: body.mass).name for side in legs}
+    hips, knees = (
+        np.mean([_centre(poses, getattr(leg, name)) for leg in legs.values()], axis=0) for name in ("hip", "knee")
+    )
+    ankles = {side: _centre(poses, leg.ankle) for side, leg in legs.items()}
+    toes = {side: _toes(poses, default, foot, legs) for side, foot in heaviest.items()}
+    return BodySites(time, ankles, toes, hips, knees)
+
+
+def _toes(
+    poses: Mapping[str, RigidTransform], default: Mapping[str, RigidTransform], foot: str, legs: Mapping[str, BodyLeg]
+) -> Places:
+    """Unit vector that points forwards with all coordinates at their default, carried along by the foot."""
+    ahead = default[foot].rotation.inv().apply(_forwards_at_rest(default, legs))[0]
+    return np.asarray(poses[foot].rotation.apply(ahead))
 
 
 def _centre(poses: Mapping[str, RigidTransform], joint: JointModel) -> Places:

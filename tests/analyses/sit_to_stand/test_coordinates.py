@@ -12,6 +12,7 @@ import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.result import goodness_of_calibration
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
+from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.stance import chain_of
@@ -186,3 +187,73 @@ def test_a_stance_is_calibrated_to_files(tmp_path: Path) -> None:
     assert (written / "report.html").is_file() and "thigh" in (written / "loads_right_1.xml").read_text(
         encoding="utf-8"
     )
+
+
+def turned_name(folder: Path, order: tuple[str, ...]) -> Path:
+    """The plates of the folder with names 1, 2, … in another order: names and order say nothing."""
+    table = read_table(folder / "plates.mot")
+    columns, names = [], []
+    for k, name in enumerate(order, 1):
+        for tail in [f"force_{kind}{axis}" for kind in "vp" for axis in "xyz"] + [f"torque_{a}" for a in "xyz"]:
+            columns.append(table.column(f"{name}_{tail}"))
+            names.append(f"{k}_ground_{tail}")
+    write_storage(folder / "other.mot", table.time, names, np.column_stack(columns), title="Plates", degrees=False)
+    return folder / "other.mot"
+
+
+@pytest.mark.parametrize("order", [("chair", "left", "right"), ("left", "right", "chair")])
+def test_plates_are_found_by_their_place(tmp_path: Path, order: tuple[str, ...]) -> None:
+    """Whatever their names and order: the same loads as with names that are typed, to the last digit."""
+    given = in_space(tmp_path)
+    typed = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+    plates = turned_name(tmp_path, order)
+    files = {"model": given["model"], "height": given["height"]}
+    found = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", plates=plates, **files)
+    carried = {"right": "right foot", "left": "left foot", "chair": "seat"}
+    assert [place.carries for place in found.given.places] == [carried[name] for name in order]
+    for one, other in ((typed.given.feet, found.given.feet), (typed.given.chair, found.given.chair)):
+        assert one is not None and other is not None
+        np.testing.assert_allclose(other, one, rtol=0.0, atol=1e-9)
+    assert any(line.startswith("plates: 1_ground_force under") for line in found.sentences)
+
+
+def test_force_and_centre_of_both_feet_by_hand(tmp_path: Path) -> None:
+    """The sum and its centre of pressure in the plane, from the file's columns with numpy alone."""
+    given = in_space(tmp_path)
+    recording = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=given["model"], plates=given["plates"]).given
+    assert recording.feet is not None
+    table = read_table(given["plates"])
+
+    def triple(name: str) -> np.ndarray:
+        return np.column_stack([table.column(f"{name}{axis}") for axis in "xyz"])
+
+    force = triple("right_force_v") + triple("left_force_v")
+    moment = triple("right_torque_") + triple("left_torque_")
+    centre = np.column_stack([moment[:, 2], -moment[:, 0]]) / force[:, [1]]  # x and z on y = 0, of r × F = M
+    forwards = np.array([np.cos(HEADING), -np.sin(HEADING)])  # x and z of the plane's x
+    up = force[:, 1] > 50.0
+    np.testing.assert_allclose(recording.feet[up, 5] / recording.feet[up, 1], (centre @ forwards)[up], atol=1e-6)
+    np.testing.assert_allclose(recording.feet[:, 0], force[:, [0, 2]] @ forwards, atol=1e-6)
+
+
+def test_feet_without_a_plate_are_refused(tmp_path: Path) -> None:
+    """One foot on a plate of two, plates elsewhere, and the other leg's: each is said with the places of all."""
+    given = in_space(tmp_path)
+    whole = {"model": given["model"]}
+    one = turned_name(tmp_path, ("left", "chair"))
+    with pytest.raises(gc.InputError, match="only the left foot stands on a plate: 1_ground_force under the left foot"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", plates=one, **whole)
+    with pytest.raises(gc.InputError, match=r"no plate lies under the right foot: .* 2_ground_force under the seat"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", plates=one, leg="right", **whole)
+    alone = turned_name(tmp_path, ("chair",))
+    with pytest.raises(gc.InputError, match=r"no plate lies under either foot: .* seat .*are `axes`, origin and clock"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", plates=alone, **whole)
+
+
+def test_plates_that_are_named_as_something_else_are_doubted(tmp_path: Path) -> None:
+    given = in_space(tmp_path) | {"feet": "right_force,chair_force", "chair": "left_force"}
+    with pytest.warns(gc.InputWarning) as said:
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+    words = [str(each.message) for each in said]
+    assert any("chair_force under the seat" in line and "is one of `feet`" in line for line in words)
+    assert any("left_force under the left foot" in line and "are feet and chair exchanged" in line for line in words)

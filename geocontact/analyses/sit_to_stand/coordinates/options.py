@@ -31,9 +31,9 @@ class StandingCoordinatesOptions(Options):
     plates
         Force plates of the same recording.
     feet
-        Plates under the feet by name or number; those of both feet, one after the other, are added up.
+        Plates under the feet by name or number, added up; by default those whose centre of pressure is under the feet.
     chair
-        The chair's plate by name or number.
+        The chair's plate by name or number; by default the one that lies under the hips.
     belt
         Speed backwards of the treadmill that is walked on [m/s]: x is then that of the belt.
     height
@@ -59,7 +59,7 @@ class StandingCoordinatesOptions(Options):
     model: Path
     leg: Literal["both", "right", "left"] = "both"
     joints: str = "hip_flexion,knee_angle,ankle_angle"
-    plates: Annotated[Path | None, Requires("feet")] = None
+    plates: Path | None = None
     feet: Annotated[str | None, Requires("plates")] = None
     chair: Annotated[str | None, Requires("plates")] = None
     belt: Annotated[float, BELT] = 0.0

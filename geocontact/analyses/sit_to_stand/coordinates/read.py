@@ -5,30 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
-from scipy.spatial.transform import Rotation
 
 from geocontact.analyses.frame.collector import add_input
-from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
+from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
+from geocontact.analyses.sit_to_stand.coordinates.plates import chosen_plates
 from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, UPRIGHT, doubt_bending
-from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST, require_one_clock
+from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN
-from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed, read_table
 from geocontact.standing_up.chain import Subject, leg_chain
 from geocontact.standing_up.movements import hip_height
-from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, planar_motion
+from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, body_sites, planar_motion
+from geocontact.standing_up.plate_places import PlatePlace
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
 
 SIDES = ("right", "left")
@@ -47,6 +46,8 @@ class PlanarRecording:
     clock, feet, chair
         Times of the plates [s]; force and moment about the origin [N, N m], x forwards, y up, z right. None where they
         were not recorded.
+    places
+        What each plate of the file carries.
     """
 
     time: Float[np.ndarray, " t"]
@@ -55,6 +56,7 @@ class PlanarRecording:
     clock: Float[np.ndarray, " s"] | None = None
     feet: Columns | None = None
     chair: Columns | None = None
+    places: tuple[PlatePlace, ...] = ()
 
 
 def read(o: StandingCoordinatesOptions) -> PlanarRecording:
@@ -64,19 +66,21 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
     if model.up[1] < 1.0 - 1e-6:
         raise InputError(o.model, "gravity", "is not along -y", "the plane is upright along y: turn the model")
     time, values = _motion(model, o)
+    legs = _legs(model, o)
     try:
-        moved = planar_motion(model, values, _legs(model, o), SIDES if o.leg == "both" else (o.leg,))
+        moved = planar_motion(model, values, legs, SIDES if o.leg == "both" else (o.leg,))
     except ValueError as error:
         raise InputError(o.model, "", str(error), "are `joints` those of hip, knee and ankle?") from error
     moved = replace(moved, q=moved.q + np.outer(o.belt * time, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]))
     whole = MovedModel(model, time, values, str(o.motion))
     subject = Subject()  # where the hip is lowest does not depend on lengths
     doubt_bending(o.motion, leg_chain(subject), moved.q, hip_height(subject, moved.q))
-    if o.plates is None or o.feet is None:
+    if o.plates is None:
         check_trial(TrialInputs(height=o.height, moved=whole))
         return PlanarRecording(time, moved, model.mass)
     turn = turn_of(o.axes)
-    under, seat = _plates(o.plates, o.feet, time, turn, o)
+    body = body_sites(model, time, values, legs)
+    under, seat, places = chosen_plates(o.plates, body, turn, model.mass, o)
     plates = tuple(FootPlate(each, str(o.plates)) for each in (*under, *seat))
     check_trial(
         TrialInputs(
@@ -91,7 +95,8 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
     )
     clock = under[0].time
     feet = _load(under, clock, moved, o.belt)
-    return PlanarRecording(time, moved, model.mass, clock, feet, _load(seat, clock, moved, o.belt) if seat else None)
+    chair = _load(seat, clock, moved, o.belt) if seat else None
+    return PlanarRecording(time, moved, model.mass, clock, feet, chair, places)
 
 
 def _stands_at(time: Times, moved: PlanarMotion) -> float | None:
@@ -114,28 +119,6 @@ def _motion(model: Multibody, o: StandingCoordinatesOptions) -> tuple[Times, Flo
     if np.abs(np.diff(time) - step).max() > UNEVEN * step or not np.isfinite(values).all():
         raise InputError(o.motion, "", f"frames are not {step:g} s apart everywhere, or empty", "fill the gaps")
     return time, values
-
-
-def _plates(
-    file: Path, feet: str, time: Times, turn: Rotation | None, o: StandingCoordinatesOptions
-) -> tuple[list[ForcePlate], list[ForcePlate]]:
-    """Plates under the feet, and that of the chair, on the clock of the motion."""
-    plates = turned_plates(read_force_plates(file, o.c3d_unit), turn, file)
-    add_input("`plates`", file, plates=len(plates))
-    names = [name.strip() for name in feet.split(",")]
-    if o.leg != "both" and o.chair is not None:
-        raise InputError("", "`chair`", "has no effect on stances of one leg", "leave it out")
-    if o.leg != "both" and len(names) > 1:
-        raise InputError("", "`feet`", f"{len(names)} plates are named for one leg", "name that of its foot")
-    if len(set(names)) < len(names):
-        raise InputError("", "`feet`", f"{feet} names a plate twice", "name each plate once")
-    under = [plate_named(plates, name, file, "`feet`") for name in names]
-    seat = [] if o.chair is None else [plate_named(plates, o.chair, file, "`chair`")]
-    if any(plate is each for plate in seat for each in under):
-        raise InputError("", "`chair`", f"{o.chair} is one of `feet` as well", "name each plate once")
-    for plate in (*under, *seat):
-        require_one_clock(file, plate, time)
-    return under, seat
 
 
 def _load(plates: Sequence[ForcePlate], clock: Times, moved: PlanarMotion, belt: float) -> Columns:

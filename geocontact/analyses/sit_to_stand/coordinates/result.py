@@ -44,8 +44,10 @@ if TYPE_CHECKING:
 
 SEATED_TASKS = ("standing up", "sitting down")
 STUDY, ANGLES = "study.toml", "coordinates.mot"
-FAR_OUT, FAR_APART = 15.0, 10.0
-"""Degrees out of the plane, and between both legs, root mean square, from which a warning says so; invented."""
+FAR_OUT, FAR_APART = 15.0, 5.0
+"""Degrees, root mean square, from which a warning says so. Out of the plane: a thigh of 0.42 m appears 14 mm shorter,
+as much as the hip's centre is off by a functional method (13 mm: Leardini et al. 1999, J Biomech 32:99). Between both
+legs: errors of more than 5 degrees may mislead (McGinley et al. 2009, Gait Posture 29:360)."""
 MEANT = [
     "Shank and thigh are the lines between the centres of their joints.",
     "The trunk is the line from the hips to the mass centre of trunk, head and arms.",
@@ -243,11 +245,16 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
         say(f"right and left differ by {turning['rms'].max():.1f}° RMS, {turning['largest'].max():.1f}° at most")
     if out["rms"].max() > FAR_OUT:
         worst = out["of"].iloc[int(out["rms"].argmax())]
-        reserve(f"{worst} is out of the plane by {out['rms'].max():.0f}° (RMS): a planar chain shortens it")
+        most = out["rms"].max()
+        reserve(f"{worst} is out of the plane by {most:.0f}° (RMS), more than {FAR_OUT:g}°: the plane shortens it")
     if len(turning) and turning["rms"].max() > FAR_APART:
-        reserve(f"the legs do not move alike, by {turning['rms'].max():.0f}° (RMS): ask for one `leg`")
+        most = turning["rms"].max()
+        reserve(f"the legs do not move alike, by {most:.1f}° (RMS), more than {FAR_APART:g}°: their mean is of neither")
     for one in result.spans:
         _doubt_sliding(result, one)
+    if given.places:
+        say(f"plates: {'; '.join(map(str, given.places))}")
+        note("plates", {place.name: place.carries for place in given.places})
     if result.spans:
         say(f"{counted(len(result.spans), 'trial')}: {', '.join(f'{one.task} {one.name}' for one in result.spans)}")
     else:
