@@ -214,7 +214,7 @@ DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (0.0, 1e4))
 SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
-TALL = Plausible("the height of a person", m, (0.8, 2.5))
+TALL = Plausible("the height of a person", m, (0.8, 2.5), (0.8, 1.97), why="999 of 1000 men, ANSUR II")
 
 DEVICE = "hinges and parts of worn devices"
 VISCOUS = Plausible("the viscous friction of a hinge of a device", N_M_S, (0.0, 500.0), (0.01, 50.0), why=DEVICE)

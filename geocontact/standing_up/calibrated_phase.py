@@ -25,6 +25,7 @@ from scipy.stats import norm
 
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, refined, solve
 from geocontact.standing_up.contact_numbers import (
+    WITH_INTERVAL,
     Build,
     ContactNumber,
     ContactNumbers,
@@ -127,7 +128,7 @@ def beside_rivals(
     told = []
     for k, (of, number) in enumerate(zip(phase.parameters, numbers.numbers, strict=True)):
         off = [float(other[k] - p[k]) for other in others]
-        out = number.verdict in ("known", "prior-dominated") and max(map(abs, off), default=0.0) > reach * number.after
+        out = number.verdict in WITH_INTERVAL and max(map(abs, off), default=0.0) > reach * number.after
         told.append(_with_rivals(of, number, off, reach) if out else number)
     return replace(numbers, numbers=tuple(told))
 

@@ -96,7 +96,11 @@ def _like(again: StandingTrial, trial: StandingTrial) -> StandingTrial:
     return replace(again, strap=strap, elsewhere=others)
 
 
-Told = Literal["known", "prior-dominated", "held", "on its bound", "not separable", "not settled"]
+Told = Literal["known", "prior-dominated", "held", "on its bound", "not separable", "not settled", "untested"]
+WITH_INTERVAL = ("known", "prior-dominated", "untested")
+"""Verdicts of numbers whose interval is that of the curvature."""
+CONFRONTED = ("force", "centre", "strap")
+"""Channels that a contact makes; without any of them its numbers are those that coordinates and their noise leave."""
 HALF = 0.5
 """Share of the belief's standard deviation that is left of a number that the trials make known, at most."""
 NEAR = 1e-3
@@ -117,7 +121,8 @@ class ContactNumber:
         "known": the trials at least halve the prior's deviation. "prior-dominated": they do not. "held": it was not
         sought. "on its bound": the search wanted to go on, so that the value says where the bound is. "not separable":
         another minimum that costs little more has another value (`other_minima`). "not settled": the search was ended
-        before its time.
+        before its time. "untested": the trials at least halve the deviation, but no force of the contact was recorded,
+        so that a wrong model of the coordinates' noise alone could make the number.
     assumed
         Part of `after`, in squares, that comes of what is taken as given (`assumed_shares`).
     """
@@ -191,8 +196,10 @@ def contact_numbers(
     numbers = []
     for k, each in enumerate(phase.parameters):
         verdict: Told = "known" if sd[k] <= HALF * each.sd else "prior-dominated"
+        if verdict == "known" and not set(CONFRONTED) & set(phase.terms):
+            verdict = "untested"
         verdict = "held" if not sought[k] else "on its bound" if on_bound[k] else verdict
-        told = verdict in ("known", "prior-dominated")
+        told = verdict in WITH_INTERVAL
         low_end, high_end = (each.value(best[k] + s * reach * sd[k]) if told else float("nan") for s in (-1.0, 1.0))
         after = {"held": 0.0, "on its bound": np.inf}.get(verdict, float(sd[k]))
         before = each.sd if sought[k] else 0.0
@@ -250,7 +257,7 @@ def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) 
     is believed of it.
     """
     sizes = [
-        n.after if n.verdict in ("known", "prior-dominated", "not separable") else of_n.sd
+        n.after if n.verdict in (*WITH_INTERVAL, "not separable") else of_n.sd
         for n, of_n in zip(of.numbers, parameters, strict=True)
     ]
     found = np.diag(np.array(sizes) ** 2)

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.standing_up.contact_numbers import ContactNumbers
+from geocontact.standing_up.contact_numbers import WITH_INTERVAL, ContactNumbers
 from geocontact.standing_up.phase import RATE, PhaseProblem
 
 FARTHEST = 3.0
@@ -60,7 +60,7 @@ def profiles(
     made = []
     low, high = phase.control.p
     for k, (each, number) in enumerate(zip(phase.parameters, numbers.numbers, strict=True)):
-        if number.verdict not in ("known", "prior-dominated"):
+        if number.verdict not in WITH_INTERVAL:
             continue
         rise, values = {0.0: 0.0}, {0.0: float(found.p[k])}
         for side in (-1.0, 1.0):

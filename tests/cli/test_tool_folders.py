@@ -12,7 +12,7 @@ from geocontact.analyses.motion.folder_inputs import folder_inputs
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.tool_folder import read_tool_folder
 from tests import legs
-from tests.cli.calls import Call, call, done
+from tests.cli.calls import MESHES, Call, call, done
 
 SESSION = "calibrationSettings:\n  mass_kg: 1\nheight_m: 1.8\nmass_kg: {}\nopenSimModel: leg\nsubjectID: synthetic\n"
 
@@ -218,3 +218,40 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
     two = put(leg, tmp_path / "two", ("leg.osim", "leg.osim"), ("still.trc", "cal1.trc"), ("still.trc", "static2.trc"))
     with pytest.raises(InputError, match="2 trials are static: cal1, static2; say which one with `trial`"):
         folder_inputs("scale", two)
+
+
+EXTERNAL = """<OpenSimDocument Version="40000"><ExternalLoads name="loads"><objects><ExternalForce name="right">
+<applied_to_body>foot_r</applied_to_body><force_identifier>right_force_v</force_identifier>
+<point_identifier>right_force_p</point_identifier></ExternalForce></objects><datafile>plates.mot</datafile>
+</ExternalLoads></OpenSimDocument>"""
+
+
+def test_a_whole_body_that_stands_up_is_one_word(tmp_path: Path) -> None:
+    """Model, height, plates, which is under which foot, and the chair: the same study as with all of it named."""
+    body, root = MESHES / "whole_body", tmp_path / "subject"
+    for name, place in (
+        ("body.osim", "Models/final.osim"),
+        ("ik.mot", "IK/up_ik.mot"),
+        ("plates.mot", "ID/plates.mot"),
+    ):
+        (root / place).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(body / name, root / place)
+    (root / "ID/up_external_forces.xml").write_text(EXTERNAL)
+    (root / "_subject.json").write_text(json.dumps({"massKg": "70", "heightM": 1.75}))
+    command = ("sit-to-stand", "coordinates")
+    named = ("--model", body / "body.osim", "--plates", body / "plates.mot", "--feet", "right_force,left_force")
+    theirs = done(
+        call(*command, body / "ik.mot", *named, "--chair", "chair_force", "--height", "1.75", "--out", tmp_path / "a")
+    )
+    ours = done(call(*command, root, "--out", tmp_path / "b", folder=tmp_path / "b"))
+    assert theirs.code == ours.code == 0
+    for name in ("coordinates.mot", "plates.mot"):
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+    studies = [(tmp_path / each / "study.toml").read_text().splitlines()[1:] for each in "ab"]
+    assert studies[0] == studies[1] and any("feet_force" in line for line in studies[0])
+    parts = {row["part"]: row["file"] for row in ours.record()["folder"]["parts"]}
+    assert parts["plates"] == "ID/plates.mot"
+    (root / "ID/up_external_forces.xml").unlink()
+    (alone,) = folder_inputs("sit-to-stand coordinates", root)
+    assert any("no plates belong to up" in line for line in alone.warnings)
+    assert dict(alone.options)["height"] == "1.75"

@@ -11,6 +11,7 @@ import numpy as np
 from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.io.mocap.markers import read_markers
+from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.opensim.osim_xml import numbers_of, read_model
 from geocontact.io.recordings.tool_folder import (
     ADDBIOMECHANICS,
@@ -23,12 +24,13 @@ from geocontact.io.recordings.tool_folder import (
 )
 from geocontact.io.text.tables import listed
 
+PLANAR = "sit-to-stand coordinates"
 FIRST = {
     "ik": "markers",
     "scale": "markers",
     "id": "coordinates",
     "markers": "coordinates",
-    "sit-to-stand coordinates": "coordinates",
+    PLANAR: "coordinates",
 }
 """What each command that takes a folder begins with: files of which kind."""
 STILL = 0.02
@@ -197,12 +199,26 @@ def _options(
             warnings += _of_mass(folder, model)
     if command == "scale" and "mass" not in typed and folder.person is not None and folder.person.mass is not None:
         found["mass"] = repr(folder.person.mass)
+    if command == PLANAR:
+        warnings += _of_the_plane(folder, trial, typed, found)
     if command == "id" and not {"loads", "plates"} & typed:
         if trial.loads is not None:
             found["loads"] = str(trial.loads)
         else:
             warnings.append(f"{folder.kind}: no ground reaction belongs to {trial.name}: nothing but gravity acts")
     return found, warnings
+
+
+def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str], found: dict[str, str]) -> list[str]:
+    """Puts the person's height and the trial's plates into `found`, where they are not typed; warnings."""
+    if "height" not in typed and folder.person is not None and folder.person.height is not None:
+        found["height"] = repr(folder.person.height)
+    if "plates" in typed:
+        return []
+    if trial.loads is None:
+        return [f"{folder.kind}: no plates belong to {trial.name}: its study follows coordinates alone; else `plates`"]
+    found["plates"] = str(read_external_loads(trial.loads)[0])
+    return []
 
 
 def _model(folder: ToolFolder, trial: FolderTrial) -> Path:
@@ -248,6 +264,8 @@ def _parts(
     if "model" in options:
         fitted = folder.kind == ADDBIOMECHANICS and command != "scale"
         rows.append(part("model", options["model"], note="of the last step of the fit" if fitted else ""))
+    if "plates" in options and Path(options["plates"]).is_relative_to(folder.root):
+        rows.append(part("plates", options["plates"], trial.name))
     if "loads" in options:
         rows.append(part("loads", options["loads"], trial.name))
     if folder.person is not None:

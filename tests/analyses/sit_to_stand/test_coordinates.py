@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -257,3 +258,63 @@ def test_plates_that_are_named_as_something_else_are_doubted(tmp_path: Path) -> 
     words = [str(each.message) for each in said]
     assert any("chair_force under the seat" in line and "is one of `feet`" in line for line in words)
     assert any("left_force under the left foot" in line and "are feet and chair exchanged" in line for line in words)
+
+
+def stretched(model: Path, factor: float) -> Path:
+    """The same body with legs of other lengths: places of knees and ankles in their parents are times `factor`."""
+    text = model.read_text(encoding="utf-8")
+    long = re.sub(
+        r"<translation>-?0 (-[0-9.]+) -?0</translation>",
+        lambda found: f"<translation>0 {factor * float(found[1])} 0</translation>",
+        text,
+    )
+    assert long != text
+    (model.parent / "long.osim").write_text(long, encoding="utf-8")
+    return model.parent / "long.osim"
+
+
+def test_a_height_that_nobody_typed_is_said_and_confronted(tmp_path: Path) -> None:
+    """By shank and thigh: 0.2529 and 0.2425 of it (de Leva 1996); one of 2.04 m is doubted, one of 2.6 m refused."""
+    model = in_space(tmp_path)["model"]
+    found = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=model)
+    legs = found.segments["shank", "length"] + found.segments["thigh", "length"]
+    assert found.height == pytest.approx(legs / (0.2529 + 0.2425)) and "unusual" not in " ".join(found.warnings)
+    assert f"height {found.height:.2f} m, by shank and thigh of body.osim" in found.sentences
+    with pytest.warns(gc.InputWarning, match=r"long.osim: by shank and thigh 2\.04\d* m is unusual .* give `height`"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=stretched(model, 2.042 / found.height))
+    with pytest.raises(gc.InputError, match=r"long.osim shank and thigh: 2\.6\d* m cannot be the height of a person"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=stretched(model, 2.6 / found.height))
+
+
+def test_legs_apart_by_more_than_five_degrees_are_doubted(tmp_path: Path) -> None:
+    """Both hips turned apart: right less left by 8 degrees, both legs' mean as it was; 4 degrees are no warning."""
+    table, subject = read_table(SAMPLE / "T1_coordinates.sto"), SUBJECT
+    q = np.column_stack([table.column(name) for name in COORDINATES])
+    q[:, 2:] = np.radians(q[:, 2:])
+    model = whole_body(subject)
+    for half, doubted in ((2.0, False), (4.0, True)):
+        off = np.tile(np.radians([half, 0.0, 0.0]), (len(q), 1))
+        write_body(tmp_path, model, table.time, values_of(model, subject, q, HEADING, off))
+        found = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=tmp_path / "body.osim")
+        assert any("the legs do not move alike, by 8.0°" in line for line in found.warnings) == doubted
+        apart = found.table("deviations").set_index(["what", "of"])
+        assert apart.loc[("right less left", "thigh"), "rms"] == pytest.approx(2.0 * half, abs=1e-4)
+
+
+@pytest.mark.slow
+def test_coordinates_alone_make_no_number_of_the_contact_known(tmp_path: Path) -> None:
+    """Without a force of the ground what halves the prior is untested; with it the same trial's toe is known."""
+    given = in_space(tmp_path)
+    told = {}
+    for name, plates in (("without", None), ("with", given["plates"])):
+        made = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", model=given["model"], plates=plates)
+        study = made.write(tmp_path / name) / "study.toml"
+        text = study.read_text(encoding="utf-8")
+        for key, size in (("length", "0.0005"), ("angle", "0.00524")):  # the sample's own
+            text = re.sub(rf"(?m)^{key} = {{ value = [0-9.]+", f"{key} = {{ value = {size}", text, count=1)
+        study.write_text(text, encoding="utf-8")
+        found = gc.sit_to_stand.calibrate(study, nodes=20, resamples=0)
+        told[name] = found.table("parameters").set_index("parameter")["verdict"]
+        assert any("no force of the ground was recorded" in line for line in found.warnings) == (name == "without")
+    assert "known" not in set(told["without"]) and "untested" in set(told["without"])
+    assert "known" in set(told["with"]) and "untested" not in set(told["with"])

@@ -44,27 +44,35 @@ def doubt_phase(one: CalibratedPhase) -> None:
     for motion, seen in zip(one.found.motions, one.motions, strict=True):
         if seen.certificate is not None and not seen.certificate.converged:
             reserve(not_certified(f"{motion.name} in {phase}", seen.certificate))
-    at_bound, believed, apart = (
-        ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
-        for verdict in ("on its bound", "prior-dominated", "not separable")
-    )
-    if at_bound:
-        reserve(f"at a bound, so the value only reflects the bound: {at_bound}")
-    if apart:
-        words = f"{phase} has another minimum that costs little more and has other values"
-        reserve(f"{words}: not separable, with intervals that cover both: {apart}")
     if one.found.solved and one.misfit > DOUBTFUL:
         reserve(
             f"{phase} leaves {one.misfit:.1f} times the sum of squares that the noise explains: the model lacks an "
             "effect, or the noise is larger than stated"
         )
-    if believed:
-        words = f"these trials add little to the prior of {believed}"
-        reserve(f"{words}: their values come mostly from the prior")
+    _doubt_verdicts(one)
     most = max(one.shares, key=lambda name: one.shares[name])
     if one.shares[most] > MOST_OF_IT:
         reserve(f"{100.0 * one.shares[most]:.1f} % of the cost are {most}: check the noise of the others")
     _compare_starts(one)
+
+
+def _doubt_verdicts(one: CalibratedPhase) -> None:
+    """Parameters whose values come of something else than the trials."""
+    at_bound, believed, apart, untested = (
+        ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
+        for verdict in ("on its bound", "prior-dominated", "not separable", "untested")
+    )
+    if at_bound:
+        reserve(f"at a bound, so the value only reflects the bound: {at_bound}")
+    if apart:
+        words = f"phase {one.name} has another minimum that costs little more and has other values"
+        reserve(f"{words}: not separable, with intervals that cover both: {apart}")
+    if believed:
+        words = f"these trials add little to the prior of {believed}"
+        reserve(f"{words}: their values come mostly from the prior")
+    if untested:
+        words = "no force of the ground was recorded: coordinates and their stated noise alone say"
+        reserve(f"{words} {untested}: untested; plates under the feet would test it")
 
 
 def _compare_starts(one: CalibratedPhase) -> None:

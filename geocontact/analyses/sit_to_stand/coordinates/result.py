@@ -29,6 +29,7 @@ from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
+from geocontact.data.plausible import TALL
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.movements import TASKS, contradiction, hip_height, movements_of
@@ -232,6 +233,8 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     height = by_legs if o.height is None else o.height
     if abs(by_legs / height - 1.0) > LEG_OFF:
         reserve(f"`height`: {height:.2f} m, and by shank and thigh of {o.model.name} {by_legs:.2f} m: of one person?")
+    if o.height is None:
+        _doubt_height(by_legs, o)
     result = StandingCoordinatesResult(options=o, given=given, height=height, spans=_spans(given, height, o))
     table = result.table("deviations")
     out, apart = (table[table["what"] == what] for what in ("out of the plane", "right less left"))
@@ -252,6 +255,8 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
         reserve(f"the legs do not move alike, by {most:.1f}° (RMS), more than {FAR_APART:g}°: their mean is of neither")
     for one in result.spans:
         _doubt_sliding(result, one)
+    if o.height is None:
+        say(f"height {height:.2f} m, by shank and thigh of {o.model.name}")
     if given.places:
         say(f"plates: {'; '.join(map(str, given.places))}")
         note("plates", {place.name: place.carries for place in given.places})
@@ -262,6 +267,17 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
         reserve(f"no {STUDY}: {'stances need `plates`' if o.leg != 'both' and given.feet is None else why}")
     note("out_of_plane_deg", dict(zip(out["of"], out["rms"], strict=True)))
     return result
+
+
+def _doubt_height(by_legs: float, o: StandingCoordinatesOptions) -> None:
+    """A warning for a height by shank and thigh that is unusual; InputError for one that nobody has."""
+    refusal, doubt = TALL.refusal(by_legs), TALL.doubt(by_legs)
+    if refusal is not None:
+        raise InputError(
+            o.model, "shank and thigh", refusal[0], "is the model in m, and are `joints` those of its legs?"
+        )
+    if doubt is not None:
+        reserve(f"{o.model}: by shank and thigh {doubt}: is it scaled to this person? give `height`")
 
 
 def _doubt_sliding(r: StandingCoordinatesResult, one: TaskSpan) -> None:

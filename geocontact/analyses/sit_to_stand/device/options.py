@@ -9,10 +9,8 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import Fraction, Requires, Spelled
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import HZ, Plausible
-from geocontact.data.units import m
+from geocontact.data.plausible import HZ, TALL, Plausible
 
-TALL = Plausible("the height of a person", m, (0.8, 2.5))
 CUTOFF = Plausible("the cut-off of angles and torques", HZ, (0.5, 100.0), (2.0, 20.0))
 
 
