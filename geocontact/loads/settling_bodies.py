@@ -14,7 +14,7 @@ those of `settling_potential` along given axes; a force stays along them and act
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -22,7 +22,7 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.geometry.surface import Surface
 from geocontact.loads.foundation import FoundationState, Layer, foundation_state
-from geocontact.loads.settling import Rest, least_energy
+from geocontact.loads.settling import FACETED, Rest, least_energy, not_held, scales
 from geocontact.loads.settling_potential import coordinates_of, placed_at, poses_of
 
 COORDINATES = ("tx", "ty", "tz", "ry", "rx", "rz")
@@ -128,8 +128,39 @@ class Assembly:
 
     @property
     def load(self) -> float:
-        """Largest force on one of them [N]."""
-        return max(float(np.linalg.norm(one.force)) for one in self.bodies.values())
+        """Smallest force on a body that bears one [N]; 0 where none does."""
+        sizes = [float(np.linalg.norm(one.force)) for one in self.bodies.values()]
+        return min((size for size in sizes if size > 0.0), default=0.0)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of all coordinates: "femur ty"."""
+        return tuple(f"{name} {coordinate}" for name in self.bodies for coordinate in COORDINATES)
+
+    def borne(self, total: BodiesEnergy) -> Float[np.ndarray, " b"]:
+        """What each free body bears [N]: its own force, or a larger one of a single contact."""
+        found = [float(np.linalg.norm(one.force)) for one in self.bodies.values()]
+        for pair, state in zip(self.pairs, total.states, strict=True):
+            force = float(np.linalg.norm(state.slope[:3]))
+            for k, name in enumerate(self.bodies):
+                if name in (pair.moving, pair.fixed):
+                    found[k] = max(found[k], force)
+        return np.array(found)
+
+    def residuals(self, total: BodiesEnergy) -> Float[np.ndarray, " b"]:
+        """Largest residual force along a free coordinate of each free body, moments over 20 mm [N]."""
+        left = np.where(self.free, np.abs(total.slope * scales(len(total.slope))), 0.0)
+        return np.asarray(left.reshape(-1, 6).max(axis=1))
+
+    def at_rest(self, total: BodiesEnergy) -> bool:
+        """Whether the residual force of every free body is small beside what that body bears."""
+        return bool((self.residuals(total) <= FACETED * self.borne(total)).all())
+
+    def loose(self, total: BodiesEnergy) -> tuple[str, ...]:
+        """Coordinates that nothing holds, each body's stiffness measured by what that body bears."""
+        borne = self.borne(total)
+        size = np.repeat(np.where(borne > 0.0, borne, max(self.load, float(borne.max()))), 6) ** -0.5
+        return not_held(total.stiffness * np.outer(size, size), self.free, 1.0, self.coordinates)
 
     def placed(self, values: Float[np.ndarray, " n"]) -> dict[str, RigidTransform]:
         """Pose of every body in the common frame at these coordinates."""
@@ -219,7 +250,8 @@ def settled(assembly: Assembly, start: Float[np.ndarray, " n"]) -> Rest[BodiesEn
     free, at = assembly.free, start
     if (free & along).any():
         at = least_energy(assembly.at, at, free & along, assembly.load).total.values
-    return least_energy(assembly.at, at, free, assembly.load)
+    rest = least_energy(assembly.at, at, free, assembly.load)
+    return replace(rest, converged=assembly.at_rest(rest.total))
 
 
 def turned_too_far(assembly: Assembly, values: Float[np.ndarray, " n"]) -> str | None:

@@ -19,7 +19,13 @@ from geocontact.data.motion import Motion
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.recordings.contact_pairs import DescribedBody, DescribedPair, PairsDescription, read_pairs
+from geocontact.io.recordings.contact_pairs import (
+    DescribedBody,
+    DescribedFree,
+    DescribedPair,
+    PairsDescription,
+    read_pairs,
+)
 from geocontact.io.text.tables import listed, read_table
 
 FRAME = "the common frame"
@@ -55,11 +61,12 @@ class TouchingPair:
 
 @dataclass(frozen=True, eq=False)
 class TouchingBodies:
-    """All pairs, and the poses of all bodies in the common frame; None for a body at rest."""
+    """All pairs, the poses of all bodies in the common frame, None for a body at rest, and what is free to settle."""
 
     pairs: tuple[TouchingPair, ...]
     motions: Mapping[str, Motion | None]
     time: Float[np.ndarray, " t"]
+    free: tuple[DescribedFree, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -77,6 +84,7 @@ def read(o: PairsOptions) -> TouchingBodies:
     given = read_pairs(o.description)
     add_input("description", o.description, bodies=len(given.bodies), pairs=len(given.pairs))
     used = {name for pair in given.pairs for name in (pair.moving, pair.fixed)}
+    used |= {one.axes for one in given.free if one.axes is not None}
     for body in given.bodies:
         if body.name not in used:
             reserve(f"{o.description}: {body.name} is in no pair and is left out")
@@ -86,7 +94,7 @@ def read(o: PairsOptions) -> TouchingBodies:
     motions = _at_one_clock(described, _motions(described, o.description))
     time = next(motion.time for motion in motions.values() if motion is not None)
     pairs = tuple(_pair(described, pair, o, motions, time) for pair in described.pairs)
-    return TouchingBodies(pairs, motions, time)
+    return TouchingBodies(pairs, motions, time, given.free)
 
 
 def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, Motion] | None]:
@@ -217,6 +225,7 @@ def _asked(
         poisson=None if layer is None else layer.poisson,
         thickness=None if layer is None else layer.thickness,
         piece=None if layer is None else layer.piece,
+        foundation=None if layer is None else layer.foundation,
     )
 
 

@@ -130,6 +130,10 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     """Every pair after the other."""
     with listener().preparing():
         warm_up()
+    if pairs.free:
+        reserve(
+            f"{o.description}: [[free]] has no effect: bodies stay as recorded; `settle-pairs` lets them come to rest"
+        )
     for body, one, other, whole in counted_twice(pairs.pairs):
         reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)

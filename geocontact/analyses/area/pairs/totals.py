@@ -12,6 +12,9 @@ from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
 from geocontact.data.evolution import MM, MM2
 
+WRENCH = tuple(f"{kind}{axis} [{unit}]" for kind, unit in (("f", "N"), ("m", "N m")) for axis in "xyz")
+"""Columns of force and moment."""
+
 
 def total_area(motions: Sequence[MotionResult]) -> Float[np.ndarray, "t k"]:
     """Sum over the pairs of the contact area on FIXED [m^2]."""
@@ -60,8 +63,7 @@ def body_loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> dict[s
 
 def loads_table(loads: dict[str, Float[np.ndarray, "t 6"]], time: Float[np.ndarray, " t"]) -> pd.DataFrame:
     """A row per frame, with the six numbers of each body."""
-    names = [f"{kind}{axis} [{unit}]" for kind, unit in (("f", "N"), ("m", "N m")) for axis in "xyz"]
-    columns = {f"{body}_{name}": load[:, k] for body, load in loads.items() for k, name in enumerate(names)}
+    columns = {f"{body}_{name}": load[:, k] for body, load in loads.items() for k, name in enumerate(WRENCH)}
     return pd.DataFrame({"time [s]": time, **columns})
 
 
