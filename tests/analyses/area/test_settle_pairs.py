@@ -244,7 +244,10 @@ def test_a_frame_without_rest_has_no_numbers(tmp_path: Path) -> None:
         (DOWN.replace('"ty"', ""), "[[free]] 1 settles: is empty"),
         (DOWN.replace('"ty"', '"ty", "tx"'), "nothing holds ball tx: contacts and springs have no stiffness along it"),
         (DOWN.replace("fy", "# fy"), "[[free]]: no force acts on any of the bodies"),
-        (DOWN + '[free.springs]\nrx = { value = 1, unit = "N m/deg" }\n', "rx: is held, and its spring has no effect; add rx to settles"),
+        (
+            DOWN + '[free.springs]\nrx = { value = 1, unit = "N m/deg" }\n',
+            "rx: is held, and its spring has no effect; add rx to settles",
+        ),
         ("", "[[free]]: no body is free"),
     ],
 )

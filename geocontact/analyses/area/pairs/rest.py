@@ -1,8 +1,14 @@
-"""Equilibrium of several bodies on the layers of all pairs: `geocontact settle-pairs`, `gc.settle_pairs`.
+r"""Equilibrium of several bodies on the layers of all pairs: `geocontact settle-pairs`, `gc.settle_pairs`.
 
 >>> import geocontact as gc
->>> result = gc.settle_pairs("meshes/resting_knee.toml")
+>>> from pathlib import Path
+>>> text = Path("meshes/resting_knee.toml").read_text().replace('mesh = "', 'mesh = "meshes/')
+>>> for name in ("gait.csv", "gait_patella.csv"):
+...     _ = Path(name).write_text("\n".join(Path("meshes", name).read_text().splitlines()[:3]))
+>>> _ = Path("two_frames.toml").write_text(text)
+>>> result = gc.settle_pairs("two_frames.toml")
 >>> print(result.sentences[0])
+2 of 2 frames at rest: femur, patella
 """
 
 from __future__ import annotations
