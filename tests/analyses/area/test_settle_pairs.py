@@ -193,7 +193,8 @@ def test_the_page_shows_all_bodies_where_they_rest(resting: SettlePairsResult) -
     assert [scene.bodies[one.body].name for one in scene.maps] == ["cup", "head"]
     assert [one.values.max() > 1.0 for one in scene.maps] == [True, True]
     table = next(one for one in page.sections if isinstance(one, Table))
-    assert [row[:2] for row in table.rows] == [("head_cup", "cup"), ("ball_head", "head")]
+    whole = [("all pairs", body) for body in ("cup", "head", "ball")]
+    assert [row[:2] for row in table.rows] == [("head_cup", "cup"), ("ball_head", "head"), *whole]
 
 
 def on_plate(folder: Path, free: str, last: tuple[int, int, int] = (0, 20, 0)) -> Path:

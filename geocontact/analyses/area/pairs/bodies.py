@@ -73,6 +73,11 @@ class TouchingBodies:
         """Names of the pairs."""
         return tuple(pair.name for pair in self.pairs)
 
+    @property
+    def of_pairs(self) -> dict[str, tuple[str, str]]:
+        """FIXED and MOVING of each pair."""
+        return {pair.name: (pair.fixed, pair.moving) for pair in self.pairs}
+
     def poses(self, body: str) -> RigidTransform:
         """Poses of a body in the common frame, one for each time."""
         motion = self.motions[body]

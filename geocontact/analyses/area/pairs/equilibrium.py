@@ -14,6 +14,7 @@ from geocontact.analyses.area.contact import PIECE, elastic_layer
 from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
 from geocontact.analyses.area.pairs.bodies import read as read_touching
 from geocontact.analyses.area.pairs.options import PairsOptions, SettlePairsOptions
+from geocontact.analyses.area.pairs.totals import body_loads
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.geometry.curvature import corner_normals
@@ -258,11 +259,7 @@ class RestingBodies:
     @property
     def loads(self) -> dict[str, Float[np.ndarray, "t 6"]]:
         """What all contacts together put on each body: force [N], moment about the common frame's origin [N m]."""
-        found: dict[str, Float[np.ndarray, "t 6"]] = {}
-        for name, pair in zip(self.pressing.names, self.pressing.pairs, strict=True):
-            for body, sign in ((pair.fixed, 1.0), (pair.moving, -1.0)):
-                found[body] = found.get(body, 0.0) + sign * self.wrenches[name]
-        return found
+        return body_loads(self.wrenches, self.pressing.touching.of_pairs)
 
     @property
     def largest_strain(self) -> dict[str, float]:

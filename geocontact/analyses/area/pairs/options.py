@@ -35,7 +35,8 @@ class PairsOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes totals.csv, pairs.csv, report.html (all bodies together), pairs.png, pairs.svg and run.json into OUT, and for
-    each pair a folder with what `area` writes; loads.csv (force and moment on each body) where a pair has a layer.
+    each pair a folder with what `area` writes; loads.csv and pair_loads.csv (force and moment on each body, of all
+    pairs and of each) where a pair has a layer.
     """
 
     description: Path

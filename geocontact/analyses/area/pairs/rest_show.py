@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.analyses.area.pairs.equilibrium import RestingBodies
+from geocontact.analyses.area.pairs.show import LOADS, WRENCH_HEADER, wrench_texts
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.words import MOST, NOT_A_DEVICE, counted, headline
 from geocontact.data.motion import Course
@@ -163,14 +164,10 @@ def _table(r: RestingBodies, k: int, when: str) -> Table:
     rows = []
     for name, pair in zip(r.pressing.names, r.pressing.pairs, strict=True):
         load, wrench = r.contacts[name][k], r.wrenches[name][k]
-        if load is None:
-            continue
-        force, moment = (
-            ", ".join(f"{value:.{digits}f}" for value in part) for part, digits in ((wrench[:3], 1), (wrench[3:], 2))
-        )
-        rows.append((name, pair.fixed, f"{load.pressing:.1f} N", force, moment, f"{load.peak * MPA:.2f} MPa"))
-    header = ("pair", "on", "force", "fx, fy, fz [N]", "mx, my, mz [N m] about the origin", "largest pressure")
-    return Table(f"Loads at {when}, in the common frame; the other body of a pair bears the opposite", header, rows)
+        peak = "" if load is None else f"{load.peak * MPA:.2f} MPa"
+        rows.append((name, pair.fixed, *wrench_texts(wrench), peak))
+    rows += [("all pairs", body, *wrench_texts(load[k]), "") for body, load in r.loads.items()]
+    return Table(LOADS.format(when), (*WRENCH_HEADER, "largest pressure"), rows)
 
 
 def _words(r: RestingBodies) -> list[Section]:
@@ -185,7 +182,7 @@ def _words(r: RestingBodies) -> list[Section]:
     model = (
         f"{layers}. Springs of a layer do not know each other. Settled: {settles}; everything else is as recorded. "
         "There is no friction, no ligament, no muscle and no weight but the forces and springs of the description; "
-        "every frame is at rest."
+        "every frame that is shown is at rest."
     )
     trust = (
         "Loads follow from modulus and thickness, and from how close the surfaces are. Compare a smaller piece and a "
