@@ -341,3 +341,12 @@ def test_the_command_writes_a_folder_for_each_pair(tmp_path: Path) -> None:
         assert (out / name).is_file(), name
     for name in ("area.csv", "pressure.csv", "run.json"):
         assert (out / "ball_plate" / name).is_file(), name
+
+
+def test_a_pair_that_never_comes_near_is_named(tmp_path: Path) -> None:
+    file = balls(tmp_path)
+    turned(tmp_path, "far.csv", np.array([0.0, 0.0, 5000.0]), Rotation.identity())
+    far = f'[[bodies]]\nname = "far"\nmesh = "{SPHERE.as_posix()}"\nmotion = "far.csv"\n'
+    text = file.read_text("utf-8") + far + '[[pairs]]\nmoving = "far"\nfixed = "plate"\n'
+    with pytest.raises(InputError, match=r"pairs.toml \[\[pairs\]\] far_plate: bodies are 4.* mm apart in every frame"):
+        run(described(tmp_path, text))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -179,17 +180,24 @@ def _pair(
     if motion is None:
         what = f"neither {pair.moving} nor {pair.fixed} moves"
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
-    try:
+    with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
         bodies = read_moved(asked, lambda _: [(pair.name, motion)])
-    except InputError as error:
-        if error.file:
-            raise
-        place = f"[[pairs]] {pair.name} {error.place}".rstrip()
-        raise InputError(o.description, place, error.what, error.remedy) from error
     for entry in current().inputs[before:]:
         entry["folder"] = pair.name
     return TouchingPair(pair.name, pair.moving, pair.fixed, asked, bodies)
+
+
+@contextmanager
+def of_pair(description: Path, name: str) -> Iterator[None]:
+    """An InputError of no file is said to be of this pair of the description."""
+    try:
+        yield
+    except InputError as error:
+        if error.file:
+            raise
+        place = f"[[pairs]] {name} {error.place}".rstrip()
+        raise InputError(description, place, error.what, error.remedy) from error
 
 
 def _relative(moving: Motion | None, fixed: Motion | None, time: Float[np.ndarray, " t"]) -> Motion | None:

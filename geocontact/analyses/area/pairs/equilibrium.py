@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area.contact import PIECE, elastic_layer
-from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair
 from geocontact.analyses.area.pairs.bodies import read as read_touching
 from geocontact.analyses.area.pairs.options import PairsOptions, SettlePairsOptions
 from geocontact.analyses.area.pairs.totals import body_loads
@@ -127,10 +127,8 @@ def _pressed(pair: TouchingPair, o: SettlePairsOptions) -> PressedPair:
     if counted is not None and not counted.all():
         reserve(f"{o.description}: {place}: all of {pair.moving} presses, whatever `region_moving` says")
     edge = PIECE if asked.piece is None else asked.piece
-    try:
+    with of_pair(o.description, pair.name):
         layer = elastic_layer(pair.bodies, pair.bodies.settings.fixed_faces, asked, edge)
-    except InputError as error:
-        raise InputError(o.description, f"{place} {error.place}".rstrip(), error.what, error.remedy) from error
     return PressedPair(layer, pair.fixed, moving, corner_normals(moving), pair.moving)
 
 

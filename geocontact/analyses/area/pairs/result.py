@@ -18,7 +18,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult, area_table, tables_of
 from geocontact.analyses.area.motion_outputs import figure_of, page_of, pressure_figure_of
-from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, read
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair, read
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.area.pairs.show import pair_curves, thinned_page
 from geocontact.analyses.area.pairs.totals import (
@@ -151,9 +151,14 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     for body, one, other, whole in counted_twice(pairs.pairs):
         reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)
-    motions = tuple(over_motion(pair.bodies, pair.options, pair.name, pair.motion, shared) for pair in pairs.pairs)
+    motions = tuple(_evaluated(pair, o, shared) for pair in pairs.pairs)
     _say_total(pairs, motions)
     return PairsResult(options=o, pairs=pairs, motions=motions)
+
+
+def _evaluated(pair: TouchingPair, o: PairsOptions, shared: tuple[str, ...]) -> MotionResult:
+    with of_pair(o.description, pair.name):
+        return over_motion(pair.bodies, pair.options, pair.name, pair.motion, shared)
 
 
 def _say_total(pairs: TouchingBodies, motions: tuple[MotionResult, ...]) -> None:
