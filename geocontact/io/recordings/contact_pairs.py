@@ -123,7 +123,7 @@ class DescribedLayer(Document):
     piece
         Longest edge of its pieces; 0.5 mm by default.
     foundation
-        Law of the layer: linear or logarithmic (finite strain).
+        Its law.
     """
 
     modulus: Annotated[float, WithUnit(YOUNG)]
@@ -178,13 +178,13 @@ class DescribedFree(Document):
     body
         The body.
     axes
-        Body along whose axes its coordinates and its force are; those of the common frame by default.
+        Body along whose axes its coordinates and force are; the common frame by default.
     settles
-        Which coordinates come to rest: displacements tx, ty, tz of its point and turns R = Ry(ry) Rx(rx) Rz(rz).
+        Which come to rest: displacements tx, ty, tz of its point, turns R = Ry(ry) Rx(rx) Rz(rz).
     fx, fy, fz
-        Force along these axes; it keeps its direction.
+        Force; it keeps its direction.
     px, py, pz
-        Point of the body, in its own frame, that the force acts at and displacements are of; its origin by default.
+        Point of the body, in its frame, that the force acts at.
     springs
         Stiffness of coordinates, at rest where the motion is.
     """
