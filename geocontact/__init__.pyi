@@ -2,6 +2,7 @@
 
 from geocontact import chain
 from geocontact.analyses import knee, misalignment, prosthesis, shoulder, sit_to_stand
+from geocontact.analyses.area.pairs.rest import settle_pairs
 from geocontact.analyses.area.pairs.result import area_pairs
 from geocontact.analyses.area.result import area, pressure
 from geocontact.analyses.cop.result import centre_of_pressure
@@ -110,6 +111,7 @@ __all__ = [
     "scale",
     "separation",
     "settle",
+    "settle_pairs",
     "shoulder",
     "simulator_base",
     "sit_to_stand",

@@ -20,7 +20,7 @@ from meshes.mat_files import recording_files
 from meshes.mat_recordings import recordings
 from meshes.motion_files import opensim_model, opensim_motion, pose_table, poses_text
 from meshes.overhead_files import trial_files
-from meshes.patella import COARSE, PAIRS, patella, patella_in_insert
+from meshes.patella import COARSE, PAIRS, RESTING, patella, patella_in_insert
 from meshes.segment_meshes import RINGS, segment_mesh
 from meshes.simple_shapes import SAMPLES
 from meshes.stl import snapped, stl_bytes
@@ -66,6 +66,7 @@ def gait_files() -> dict[str, bytes]:
     texts = {
         "gait_patella.csv": poses_text(gait.time, *patella_in_insert(gait, femoral, button)),
         "knee_pairs.toml": PAIRS,
+        "resting_knee.toml": RESTING,
         "gait.csv": pose_table(gait),
         "gait_left.csv": pose_table(gait.mirrored()),
         "gait.mot": opensim_motion(gait),

@@ -117,3 +117,52 @@ moving = "patella"
 fixed = "femur"
 """
 """Description of the pairs, in the frame of the insert."""
+
+RESTING = """\
+# A total knee with a patellar button that come to rest (synthetic): `geocontact settle-pairs meshes/resting_knee.toml`
+unit = "mm"
+
+[[bodies]]
+name = "femur"
+mesh = "femoral_component_right_coarse.stl"
+motion = "gait.csv"
+
+[[bodies]]
+name = "insert"
+mesh = "tibial_insert_right_coarse.stl"
+
+[[bodies]]
+name = "patella"
+mesh = "patella_right_coarse.stl"
+motion = "gait_patella.csv"
+
+[[pairs]]
+name = "tibiofemoral"
+moving = "femur"
+fixed = "insert"
+region = "ny > 0.25"
+layer = { modulus = { value = 463, unit = "MPa" }, poisson = 0.46, piece = { value = 1, unit = "mm" } }
+
+[[pairs]]
+name = "patellofemoral"
+moving = "femur"
+fixed = "patella"
+[pairs.layer]
+modulus = { value = 463, unit = "MPa" }
+poisson = 0.46
+thickness = { value = 8, unit = "mm" }
+piece = { value = 1, unit = "mm" }
+
+[[free]]
+body = "femur"
+axes = "insert"
+settles = ["ty", "rx"]
+fy = { value = -2000, unit = "N" }
+
+[[free]]
+body = "patella"
+axes = "insert"
+settles = ["tx"]
+fx = { value = -300, unit = "N" }
+"""
+"""Description of bodies that come to rest: femur under 2 kN on the insert, button pulled onto the femur."""

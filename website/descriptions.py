@@ -67,7 +67,8 @@ FILES = (
     DescribedFile("A study", "`geocontact cohort` ([guide](../how-to/cohort.md))", StudyFile, {}),
     DescribedFile(
         "Pairs of bodies",
-        "`geocontact pairs` ([guide](../how-to/regions_and_sides.md#several-pairs)), such as `meshes/knee_pairs.toml`",
+        "`geocontact pairs`, `settle-pairs` ([guide](../how-to/regions_and_sides.md#several-pairs)), such as "
+        "`meshes/knee_pairs.toml`, `meshes/resting_knee.toml`",
         PairsDescription,
         {},
     ),

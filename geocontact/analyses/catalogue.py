@@ -145,6 +145,7 @@ ENTRIES = (
     Entry("area", "area", "AreaOptions", "result:area"),
     Entry("", "area", "PressureOptions", "result:pressure"),
     Entry("pairs", "area.pairs", "PairsOptions", "result:area_pairs"),
+    Entry("settle-pairs", "area.pairs", "SettlePairsOptions", "rest:settle_pairs"),
     Entry("cohort", "geocontact.study", "CohortOptions", "result:cohort"),
     Entry("cop", "cop", "CopOptions", "result:centre_of_pressure"),
     Entry("elbow simulate", "misalignment.simulate", "SimulateOptions", "result:simulate"),

@@ -6,8 +6,9 @@ every step goes downhill, and a step is halved until the energy falls by a share
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -30,19 +31,21 @@ def least_held(stiffness: Float[np.ndarray, "6 6"], free: Bool[np.ndarray, " 6"]
     return float(np.linalg.eigvalsh(_scaled(stiffness, free))[0])
 
 
-def not_held(stiffness: Float[np.ndarray, "6 6"], free: Bool[np.ndarray, " 6"], load: float) -> tuple[str, ...]:
+def not_held(
+    stiffness: Float[np.ndarray, "n n"], free: Bool[np.ndarray, " n"], load: float, names: Sequence[str] = NAMES
+) -> tuple[str, ...]:
     """Names of the free coordinates that neither the contact nor a spring holds; none where all are held."""
     curvature, directions = np.linalg.eigh(_scaled(stiffness, free))
     loose = curvature < HELD * load / ARM
     if not loose.any():
         return ()
     part = np.abs(directions[:, loose]).max(axis=1)
-    names = np.array(NAMES)[free]
-    return tuple(str(name) for name, share in zip(names, part, strict=True) if share >= SHARE)
+    chosen = np.array(names)[free]
+    return tuple(str(name) for name, share in zip(chosen, part, strict=True) if share >= SHARE)
 
 
-def _scaled(stiffness: Float[np.ndarray, "6 6"], free: Bool[np.ndarray, " 6"]) -> Float[np.ndarray, "n n"]:
-    scale = scales()[free]
+def _scaled(stiffness: Float[np.ndarray, "n n"], free: Bool[np.ndarray, " n"]) -> Float[np.ndarray, "k k"]:
+    scale = scales(len(free))[free]
     return np.asarray(stiffness[np.ix_(free, free)] * np.outer(scale, scale))
 
 
@@ -66,8 +69,31 @@ LEAST = 1e-9
 """Share of the largest curvature: smaller ones are taken for this."""
 
 
+class Energy(Protocol):
+    """Energy at some coordinates [m, rad] with its first and second derivative: slope 0 is equilibrium."""
+
+    @property
+    def values(self) -> Float[np.ndarray, " n"]:
+        """The coordinates, six of each body."""
+
+    @property
+    def potential(self) -> float:
+        """Stored energy and the load's [J]."""
+
+    @property
+    def slope(self) -> Float[np.ndarray, " n"]:
+        """First derivative."""
+
+    @property
+    def stiffness(self) -> Float[np.ndarray, "n n"]:
+        """Second derivative."""
+
+
+E = TypeVar("E", bound=Energy)
+
+
 @dataclass(frozen=True, eq=False)
-class Rest:
+class Rest(Generic[E]):
     """Where the search ended.
 
     Parameters
@@ -82,56 +108,66 @@ class Rest:
         Whether that is equilibrium.
     """
 
-    total: Total
+    total: E
     residual: float
     steps: int
     converged: bool
 
 
-def scales() -> Float[np.ndarray, " 6"]:
-    """Coordinates per metre of the scaled ones."""
-    return np.array([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM, 1.0 / ARM])
+def scales(count: int = 6) -> Float[np.ndarray, " n"]:
+    """Coordinates per metre of the scaled ones, three displacements and three turns of each body."""
+    return np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM, 1.0 / ARM], count // 6)
 
 
-def equilibrium(bed: Bed, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]) -> Rest:
+def equilibrium(bed: Bed, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]) -> Rest[Total]:
     """Coordinates at which nothing moves on along the free ones, from `start`; the others stay."""
-    now = total_at(bed, pull, start)
+    return least_energy(lambda values: total_at(bed, pull, values), start, free, pull.load)
+
+
+def least_energy(
+    energy: Callable[[Float[np.ndarray, " n"]], E],
+    start: Float[np.ndarray, " n"],
+    free: Bool[np.ndarray, " n"],
+    load: float,
+) -> Rest[E]:
+    """The same of any energy; `load` [N] is what residual forces are a share of."""
+    now = energy(start)
     for step in range(STEPS):
         left = _left(now, free)
-        if left <= EXACT * pull.load:
+        if left <= EXACT * load:
             return Rest(now, left, step, True)
-        following = _lower(bed, pull, now, free)
+        following = _lower(energy, now, free)
         if following is None:
-            return Rest(now, left, step, left <= FACETED * pull.load)
+            return Rest(now, left, step, left <= FACETED * load)
         now = following
     left = _left(now, free)
-    return Rest(now, left, STEPS, left <= FACETED * pull.load)
+    return Rest(now, left, STEPS, left <= FACETED * load)
 
 
-def _left(now: Total, free: Bool[np.ndarray, " 6"]) -> float:
-    return float(np.abs((now.slope * scales())[free]).max())
+def _left(now: Energy, free: Bool[np.ndarray, " n"]) -> float:
+    return float(np.abs((now.slope * scales(len(free)))[free]).max())
 
 
-def _lower(bed: Bed, pull: AxialLoad, now: Total, free: Bool[np.ndarray, " 6"]) -> Total | None:
+def _lower(energy: Callable[[Float[np.ndarray, " n"]], E], now: E, free: Bool[np.ndarray, " n"]) -> E | None:
     """The next point of the search; None where no step lowers the energy."""
     direction, promised = downhill(now, free)
-    share = min(1.0, LONGEST / max(float(np.abs(direction / scales()).max()), 1e-300))
+    share = min(1.0, LONGEST / max(float(np.abs(direction / scales(len(free))).max()), 1e-300))
     for _ in range(HALVINGS):
-        tried = total_at(bed, pull, now.values + share * direction)
+        tried = energy(now.values + share * direction)
         if tried.potential <= now.potential + PROMISED * share * promised:
             return tried
         share *= 0.5
     return None
 
 
-def downhill(now: Total, free: Bool[np.ndarray, " 6"]) -> tuple[Float[np.ndarray, " 6"], float]:
+def downhill(now: Energy, free: Bool[np.ndarray, " n"]) -> tuple[Float[np.ndarray, " n"], float]:
     """Newton step [m, rad] and the change of energy per share of it [J]."""
-    scale = scales()[free]
+    scale = scales(len(free))[free]
     slope = now.slope[free] * scale
     curvature, directions = np.linalg.eigh(now.stiffness[np.ix_(free, free)] * np.outer(scale, scale))
     size = np.maximum(np.abs(curvature), LEAST * max(float(np.abs(curvature).max()), 1.0))
     step = -directions @ ((directions.T @ slope) / size)
-    full = np.zeros(6)
+    full = np.zeros(len(free))
     full[free] = step * scale
     return full, float(slope @ step)
 
@@ -157,7 +193,7 @@ class EnergyBalance:
         return abs(self.work - self.stored) / self.work
 
 
-def energy_balance(bed: Bed, pull: AxialLoad, rest: Rest, free: Bool[np.ndarray, " 6"]) -> EnergyBalance | None:
+def energy_balance(bed: Bed, pull: AxialLoad, rest: Rest[Total], free: Bool[np.ndarray, " 6"]) -> EnergyBalance | None:
     """Balance along the equilibria under smaller loads, or else along the axial way alone; None without either.
 
     The way of the load is y, downwards. By parts its work is F y less the integral of y over the load, taken with
@@ -200,7 +236,7 @@ class Frame:
     """One frame: what was asked for, and where it came to rest; None where the bodies miss each other."""
 
     pull: AxialLoad
-    rest: Rest | None
+    rest: Rest[Total] | None
 
     @property
     def converged(self) -> bool:
@@ -247,7 +283,7 @@ def settle_along(
 
 def _settled(
     bed: Bed, fixed: Surface, pull: AxialLoad, start: Float[np.ndarray, " 6"], free: Bool[np.ndarray, " 6"]
-) -> Rest | None:
+) -> Rest[Total] | None:
     """Down onto the layer, then to rest under the load with nothing but the axial way free, then to rest."""
     touches = bed.state(placed_at(start, bed.point)).energy > 0.0
     at = start if touches else pressing(bed, start, fixed)

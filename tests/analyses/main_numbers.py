@@ -49,6 +49,16 @@ def by_column(file: str, form: str, factor: float = 1.0) -> Read:
     return read
 
 
+def by_pair(name: str, factor: float = 1.0) -> Read:
+    """A column of contacts.csv for each pair."""
+
+    def read(out: Path) -> dict[str, Any]:
+        table = pd.read_csv(out / "contacts.csv")
+        return {pair: rows[name].to_numpy(float) * factor for pair, rows in table.groupby("pair", sort=False)}
+
+    return read
+
+
 def by_side(form: str, name: str, factor: float = 1.0, sides: tuple[str, ...] = ("right",)) -> Read:
     """A column, or several in a tuple, of a file for each side or trial."""
     return lambda out: {each: column(form.format(each), name, factor)(out) for each in sides}
@@ -307,6 +317,11 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "elevation": by_side("{}.csv", "shoulder elevation [deg]", DEG),
         "force": lambda out: {"right": columns("right.csv", "force_{} [N]", "xyz")(out)},
         "support_torque": by_side("{}.csv", "support torque [N m]"),
+    },
+    "settle_pairs": {
+        "force": by_pair("force [N]"),
+        "pressure": by_pair("peak [MPa]", MPA),
+        "area": by_pair("pressed_area [mm^2]", MM2),
     },
     "shoulder.study": {"rmsd": by_rows("summary.csv", ["channel", "part"], "rmsd")},
     "sit_to_stand.calibrate": {

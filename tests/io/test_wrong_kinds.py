@@ -381,11 +381,30 @@ modulus = { value = 500, unit = "MPa" }
 poisson = 0.46
 thickness = { value = 8, unit = "mm" }
 piece = { value = 1, unit = "mm" }
+foundation = "logarithmic"
+[[free]]
+body = "femur"
+axes = "insert"
+settles = ["tx", "ty", "tz", "rx", "ry", "rz"]
+fx = { value = 10, unit = "N" }
+fy = { value = -2, unit = "kN" }
+fz = { value = 20, unit = "N" }
+px = { value = 1, unit = "mm" }
+py = { value = 2, unit = "mm" }
+pz = { value = 3, unit = "mm" }
+[free.springs]
+tx = { value = 30, unit = "N/mm" }
+ty = { value = 30, unit = "N/mm" }
+tz = { value = 30, unit = "N/mm" }
+rx = { value = 0.4, unit = "N m/deg" }
+ry = { value = 0.4, unit = "N m/deg" }
+rz = { value = 0.4, unit = "N m/deg" }
 """,
         {
             r"(bodies|pairs) \d+ name": ("number", "text"),
             r"bodies \d+ (place|segment)": ("number", "text"),
             r"pairs \d+ (moving|fixed)": ("number", "text"),
+            r"free \d+ (body|axes)": ("number", "text"),
             r"pairs \d+ region(_moving)?": ("text",),
             "order": ("number", "text"),
             ".* (source|note)": ("number", "bool", "list", "table", "date"),

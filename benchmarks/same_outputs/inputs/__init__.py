@@ -16,6 +16,7 @@ SHIPPED = (
     "*.mot",
     "*.osim",
     "knee_pairs.toml",
+    "resting_knee.toml",
     "foot_bench/*",
     "whole_body/*",
     "mat_*/*",

@@ -129,9 +129,9 @@ def pressures_of(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept
     edge = PIECE if o.piece is None else o.piece
 
     def finer(faces: Bool[np.ndarray, " f"]) -> Layer:
-        return _layer(bodies, faces if counted is None else faces & counted, o, 0.5 * edge)
+        return elastic_layer(bodies, faces if counted is None else faces & counted, o, 0.5 * edge)
 
-    layer, skin = _layer(bodies, counted, o, edge), _skin(moving, o)
+    layer, skin = elastic_layer(bodies, counted, o, edge), _skin(moving, o)
     with listener().progress(f"pressure {name}".strip(), len(motion)) as step:
         found = pressure_evolution(layer, bodies.fixed, moving, motion, skin, kept, finer, o.workers, step)
     _say_pressures(found, name)
@@ -163,7 +163,7 @@ def pressure_error_of(
     return found
 
 
-def _layer(bodies: Bodies, faces: Bool[np.ndarray, " f"] | None, o: AreaOptions, edge: float) -> Layer:
+def elastic_layer(bodies: Bodies, faces: Bool[np.ndarray, " f"] | None, o: AreaOptions, edge: float) -> Layer:
     """FIXED's layer in pieces of at most `edge` [m]."""
     fixed, split = bodies.fixed, bodies.settings.split
     try:

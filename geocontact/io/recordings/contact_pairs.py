@@ -30,7 +30,13 @@
 All motions are in one frame, such as the laboratory's; a body without one rests in it. Instead of files of poses:
 `model` (.osim) and `coordinates` of it (.mot, .sto) for the whole description, and for each body the `segment` of the
 model that it is fixed to; the frame is the model's ground then. Times are those of the first body of a pair that
-moves.
+moves. Bodies that come to rest on the layers of the pairs (`geocontact settle-pairs`):
+
+    [[free]]
+    body = "femur"
+    axes = "insert"
+    settles = ["ty", "rx"]
+    fy = { value = -2000, unit = "N" }
 """
 
 from __future__ import annotations
@@ -40,12 +46,24 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geocontact.data.plausible import FRAME_RATE, LAYER, PIECE, YOUNG
+from geocontact.data.plausible import (
+    ALONG_AXIS,
+    FRAME_RATE,
+    HELD_PLACE,
+    HELD_TURN,
+    LAYER,
+    PIECE,
+    PLACE_ON_BODY,
+    YOUNG,
+)
 from geocontact.io.documents import (
     Document,
     File,
     FileName,
     Listed,
+    Names,
+    Rows,
+    Some,
     Text,
     WithUnit,
     Word,
@@ -104,12 +122,15 @@ class DescribedLayer(Document):
         Thickness; along rays by default.
     piece
         Longest edge of its pieces; 0.5 mm by default.
+    foundation
+        Its law.
     """
 
     modulus: Annotated[float, WithUnit(YOUNG)]
     poisson: Annotated[float, Field(gt=0.0, lt=0.5)]
     thickness: Annotated[float, WithUnit(LAYER)] | None = None
     piece: Annotated[float, WithUnit(PIECE)] | None = None
+    foundation: Literal["linear", "logarithmic"] = "linear"
 
 
 class DescribedPair(Document):
@@ -145,6 +166,52 @@ class DescribedPair(Document):
         return self
 
 
+_SPRING, _TURNED = Annotated[float, WithUnit(HELD_PLACE)], Annotated[float, WithUnit(HELD_TURN)]
+SPRINGS = {"tx": _SPRING, "ty": _SPRING, "tz": _SPRING, "rx": _TURNED, "ry": _TURNED, "rz": _TURNED}
+
+
+class DescribedFree(Document):
+    """A body that comes to rest on the layers, for `geocontact settle-pairs`.
+
+    Parameters
+    ----------
+    body
+        The body.
+    axes
+        Body along whose axes its coordinates and force are; the common frame by default.
+    settles
+        Which come to rest: displacements tx, ty, tz of its point, turns R = Ry(ry) Rx(rx) Rz(rz).
+    fx, fy, fz
+        Force; it keeps its direction.
+    px, py, pz
+        Point of the body, in its frame, that the force acts at.
+    springs
+        Stiffness of coordinates, at rest where the motion is.
+    """
+
+    body: Word
+    axes: Word | None = None
+    settles: Names
+    fx: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
+    fy: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
+    fz: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
+    px: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
+    py: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
+    pz: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
+    springs: Annotated[dict[str, float], Some(SPRINGS)] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _require_free(self) -> DescribedFree:
+        odd = next((name for name in self.settles if name not in SPRINGS), None)
+        if odd is not None or not self.settles:
+            what = "is empty: nothing settles" if odd is None else f"{odd!r:.40} is no coordinate"
+            raise refusal(what, f"there are {', '.join(SPRINGS)}", at=("settles",))
+        for name in self.springs:
+            if name not in self.settles:
+                raise refusal("is held, and its spring has no effect", f"add {name} to settles", at=("springs", name))
+        return self
+
+
 class PairsDescription(Document):
     """Everything in the description.
 
@@ -166,6 +233,8 @@ class PairsDescription(Document):
         Order of intrinsic rotations of Euler angles.
     rate
         Frames per second of poses without times.
+    free
+        Bodies that come to rest.
     """
 
     unit: Annotated[Literal["m", "cm", "mm", "in"], Field(examples=['"mm"'])]
@@ -176,6 +245,7 @@ class PairsDescription(Document):
     angles: Literal["deg", "rad"] | None = None
     order: Word | None = None
     rate: Annotated[float, WithUnit(FRAME_RATE)] | None = None
+    free: Annotated[tuple[DescribedFree, ...], Rows] = ()
 
     @model_validator(mode="after")
     def _require_bodies(self) -> PairsDescription:
@@ -192,7 +262,21 @@ class PairsDescription(Document):
                 raise refusal("needs a model and its coordinates", "write them", at=("bodies", k, "segment"))
         if all(body.motion is None and body.segment is None for body in self.bodies):
             raise refusal("no body moves", "write a motion for one", at=("bodies",))
+        self._require_free(known)
         return self
+
+    def _require_free(self, known: set[str]) -> None:
+        free = [one.body for one in self.free]
+        for k, one in enumerate(self.free):
+            for key, name in (("body", one.body), ("axes", one.axes)):
+                if name is not None and name not in known:
+                    what, remedy = f"no body is called {name}", f"there are {', '.join(sorted(known))}"
+                    raise refusal(what, remedy, at=("free", k, key))
+            if free.index(one.body) != k:
+                raise refusal(f"{one.body} is free twice", "write one [[free]] for each body", at=("free", k, "body"))
+            if one.axes in free:
+                what = f"{one.axes} comes to rest itself: its axes are not known before"
+                raise refusal(what, "name a body that is held, or leave axes out", at=("free", k, "axes"))
 
     def body(self, name: str) -> DescribedBody:
         """The body of this name."""

@@ -192,6 +192,15 @@ def test_loads_are_those_of_the_pair_in_the_common_frame(tmp_path: Path) -> None
     table = result.table("loads")
     np.testing.assert_array_equal(table["ball_fx [N]"], result.loads["ball"][:, 0])
     np.testing.assert_allclose(result.table()["force_ball_plate [N]"].iloc[::2], own["force [N]"], rtol=1e-12)
+    names = ["fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]"]
+    by_pair = result.table("pair_loads")
+    for body in ("plate", "ball"):
+        np.testing.assert_array_equal(by_pair[by_pair["on"] == body][names], result.loads[body])
+    assert set(by_pair["pair"]) == {"ball_plate"}
+    shown = [one for one in result.pages({})["report.html"].of(101).sections if isinstance(one, Table)]
+    rows = next(one.rows for one in shown if one.title.startswith("Loads at"))
+    assert [row[:2] for row in rows] == [("ball_plate", "plate"), ("all pairs", "plate"), ("all pairs", "ball")]
+    assert rows[0][2].split(", ")[1] == f"{result.loads['plate'][0, 1]:.1f}"
 
 
 def test_bodies_of_a_model_move_with_its_segments(tmp_path: Path) -> None:
@@ -328,7 +337,16 @@ def test_the_command_writes_a_folder_for_each_pair(tmp_path: Path) -> None:
     with unpictured():
         told = done(call("pairs", balls(tmp_path), "--rule", "clip", "--out", out, folder=out))
     assert "ball_plate: linear foundation: force up to" in told.out
-    for name in ("totals.csv", "pairs.csv", "loads.csv", "run.json"):
+    for name in ("totals.csv", "pairs.csv", "loads.csv", "pair_loads.csv", "run.json"):
         assert (out / name).is_file(), name
     for name in ("area.csv", "pressure.csv", "run.json"):
         assert (out / "ball_plate" / name).is_file(), name
+
+
+def test_a_pair_that_never_comes_near_is_named(tmp_path: Path) -> None:
+    file = balls(tmp_path)
+    turned(tmp_path, "far.csv", np.array([0.0, 0.0, 5000.0]), Rotation.identity())
+    far = f'[[bodies]]\nname = "far"\nmesh = "{SPHERE.as_posix()}"\nmotion = "far.csv"\n'
+    text = file.read_text("utf-8") + far + '[[pairs]]\nmoving = "far"\nfixed = "plate"\n'
+    with pytest.raises(InputError, match=r"pairs.toml \[\[pairs\]\] far_plate: bodies are 4.* mm apart in every frame"):
+        run(described(tmp_path, text))

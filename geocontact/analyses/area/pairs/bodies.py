@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,7 +20,13 @@ from geocontact.data.motion import Motion
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
-from geocontact.io.recordings.contact_pairs import DescribedBody, DescribedPair, PairsDescription, read_pairs
+from geocontact.io.recordings.contact_pairs import (
+    DescribedBody,
+    DescribedFree,
+    DescribedPair,
+    PairsDescription,
+    read_pairs,
+)
 from geocontact.io.text.tables import listed, read_table
 
 FRAME = "the common frame"
@@ -55,16 +62,22 @@ class TouchingPair:
 
 @dataclass(frozen=True, eq=False)
 class TouchingBodies:
-    """All pairs, and the poses of all bodies in the common frame; None for a body at rest."""
+    """All pairs, the poses of all bodies in the common frame, None for a body at rest, and what is free to settle."""
 
     pairs: tuple[TouchingPair, ...]
     motions: Mapping[str, Motion | None]
     time: Float[np.ndarray, " t"]
+    free: tuple[DescribedFree, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the pairs."""
         return tuple(pair.name for pair in self.pairs)
+
+    @property
+    def of_pairs(self) -> dict[str, tuple[str, str]]:
+        """FIXED and MOVING of each pair."""
+        return {pair.name: (pair.fixed, pair.moving) for pair in self.pairs}
 
     def poses(self, body: str) -> RigidTransform:
         """Poses of a body in the common frame, one for each time."""
@@ -77,6 +90,7 @@ def read(o: PairsOptions) -> TouchingBodies:
     given = read_pairs(o.description)
     add_input("description", o.description, bodies=len(given.bodies), pairs=len(given.pairs))
     used = {name for pair in given.pairs for name in (pair.moving, pair.fixed)}
+    used |= {one.axes for one in given.free if one.axes is not None}
     for body in given.bodies:
         if body.name not in used:
             reserve(f"{o.description}: {body.name} is in no pair and is left out")
@@ -86,7 +100,7 @@ def read(o: PairsOptions) -> TouchingBodies:
     motions = _at_one_clock(described, _motions(described, o.description))
     time = next(motion.time for motion in motions.values() if motion is not None)
     pairs = tuple(_pair(described, pair, o, motions, time) for pair in described.pairs)
-    return TouchingBodies(pairs, motions, time)
+    return TouchingBodies(pairs, motions, time, given.free)
 
 
 def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, Motion] | None]:
@@ -166,17 +180,24 @@ def _pair(
     if motion is None:
         what = f"neither {pair.moving} nor {pair.fixed} moves"
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
-    try:
+    with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
         bodies = read_moved(asked, lambda _: [(pair.name, motion)])
-    except InputError as error:
-        if error.file:
-            raise
-        place = f"[[pairs]] {pair.name} {error.place}".rstrip()
-        raise InputError(o.description, place, error.what, error.remedy) from error
     for entry in current().inputs[before:]:
         entry["folder"] = pair.name
     return TouchingPair(pair.name, pair.moving, pair.fixed, asked, bodies)
+
+
+@contextmanager
+def of_pair(description: Path, name: str) -> Iterator[None]:
+    """An InputError of no file is said to be of this pair of the description."""
+    try:
+        yield
+    except InputError as error:
+        if error.file:
+            raise
+        place = f"[[pairs]] {name} {error.place}".rstrip()
+        raise InputError(description, place, error.what, error.remedy) from error
 
 
 def _relative(moving: Motion | None, fixed: Motion | None, time: Float[np.ndarray, " t"]) -> Motion | None:
@@ -217,6 +238,7 @@ def _asked(
         poisson=None if layer is None else layer.poisson,
         thickness=None if layer is None else layer.thickness,
         piece=None if layer is None else layer.piece,
+        foundation=None if layer is None else layer.foundation,
     )
 
 

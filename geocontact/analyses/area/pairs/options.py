@@ -35,7 +35,8 @@ class PairsOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes totals.csv, pairs.csv, report.html (all bodies together), pairs.png, pairs.svg and run.json into OUT, and for
-    each pair a folder with what `area` writes; loads.csv (force and moment on each body) where a pair has a layer.
+    each pair a folder with what `area` writes; loads.csv and pair_loads.csv (force and moment on each body, of all
+    pairs and of each) where a pair has a layer.
     """
 
     description: Path
@@ -50,3 +51,24 @@ class PairsOptions(Options):
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
         refuse_thresholds(self.threshold)
+
+
+@dataclass(frozen=True)
+class SettlePairsOptions(Options):
+    """Contact equilibrium of several bodies: those that are free come to rest on the elastic layers of all pairs.
+
+    Parameters
+    ----------
+    description
+        Bodies with their meshes and motions, pairs with layers, and the bodies that are free, each with its force
+        (.toml).
+    """
+
+    over_time: ClassVar[bool] = True
+    writes: ClassVar[str] = """
+    Writes bodies.csv (coordinates and residual force), contacts.csv (force, moment, pressure of each pair), loads.csv
+    (force and moment on each body), poses_BODY.csv (a motion for `geocontact pairs`), a figure, report.html (all bodies
+    together) and run.json into OUT.
+    """
+
+    description: Path

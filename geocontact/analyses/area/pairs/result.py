@@ -18,10 +18,18 @@ from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult, area_table, tables_of
 from geocontact.analyses.area.motion_outputs import figure_of, page_of, pressure_figure_of
-from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, read
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair, read
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.area.pairs.show import pair_curves, thinned_page
-from geocontact.analyses.area.pairs.totals import body_loads, counted_twice, loads_table, total_area, totals_table
+from geocontact.analyses.area.pairs.totals import (
+    body_loads,
+    counted_twice,
+    loads_table,
+    pair_loads,
+    pair_loads_table,
+    total_area,
+    totals_table,
+)
 from geocontact.analyses.area.result import over_motion
 from geocontact.analyses.frame.collector import current, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
@@ -85,16 +93,22 @@ class PairsResult(Result):
     @property
     def loads(self) -> dict[str, Float[np.ndarray, "t 6"]]:
         """Force [N] and moment about the common frame's origin [N m] on each body, by pairs that have a layer."""
-        return body_loads(self.pairs, self.motions)
+        return body_loads(self.pair_loads, self.pairs.of_pairs)
+
+    @property
+    def pair_loads(self) -> dict[str, Float[np.ndarray, "t 6"]]:
+        """The same of each pair that has a layer, on its FIXED; MOVING bears the opposite."""
+        return pair_loads(self.pairs, self.motions)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`totals`, `pairs` (rows of all), `loads` where there are layers, and of each pair those of `area`."""
+        """`totals`, `pairs` (rows of all), `loads`, `pair_loads` with a layer; of each pair those of `area`."""
         whole = [(one.name, area_table(one, pair.options)) for pair, one in self._both()]
         found = {"totals": totals_table(self.motions, self.time)}
         found["pairs"] = pd.concat([table.assign(pair=name) for name, table in whole], ignore_index=True)
         found["pairs"].insert(0, "pair", found["pairs"].pop("pair"))
         if loads := self.loads:
             found["loads"] = loads_table(loads, self.time)
+            found["pair_loads"] = pair_loads_table(self.pair_loads, self.pairs.of_pairs, self.time)
         for pair, one in self._both():
             found |= {f"{one.name}/{name}": table for name, table in tables_of(one, pair.options).items()}
         return found
@@ -130,12 +144,21 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     """Every pair after the other."""
     with listener().preparing():
         warm_up()
+    if pairs.free:
+        reserve(
+            f"{o.description}: [[free]] has no effect: bodies stay as recorded; `settle-pairs` lets them come to rest"
+        )
     for body, one, other, whole in counted_twice(pairs.pairs):
         reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)
-    motions = tuple(over_motion(pair.bodies, pair.options, pair.name, pair.motion, shared) for pair in pairs.pairs)
+    motions = tuple(_evaluated(pair, o, shared) for pair in pairs.pairs)
     _say_total(pairs, motions)
     return PairsResult(options=o, pairs=pairs, motions=motions)
+
+
+def _evaluated(pair: TouchingPair, o: PairsOptions, shared: tuple[str, ...]) -> MotionResult:
+    with of_pair(o.description, pair.name):
+        return over_motion(pair.bodies, pair.options, pair.name, pair.motion, shared)
 
 
 def _say_total(pairs: TouchingBodies, motions: tuple[MotionResult, ...]) -> None:

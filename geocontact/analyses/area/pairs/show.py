@@ -11,7 +11,7 @@ from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.figure import colour_span
 from geocontact.analyses.area.page_sections import in_mm, seen_distances
 from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
-from geocontact.analyses.area.pairs.totals import total_area
+from geocontact.analyses.area.pairs.totals import body_loads, pair_loads, total_area
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.result import REPORT
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
@@ -23,6 +23,8 @@ from geocontact.view.surfaces.camera import camera_directions
 
 FRAMES = 101
 """Frames that the page animates at most."""
+LOADS = "Loads at {}, in the common frame; the other body of a pair bears the opposite"
+WRENCH_HEADER = ("pair", "on", "fx, fy, fz [N]", "mx, my, mz [N m] about the origin")
 
 
 def pair_curves(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> CurveSheet:
@@ -73,6 +75,7 @@ def _page(
         Readout(_rows(motions, frames, k), title=f"This frame, threshold {in_mm(e, k)}"),
         *pair_curves(pairs, motions).at(frames),
         _table(pairs.pairs, motions, k),
+        *_loads(pairs, motions),
         INPUTS,
         OPTIONS,
         *_words(pairs.pairs),
@@ -157,6 +160,23 @@ def _table(pairs: Sequence[TouchingPair], motions: Sequence[MotionResult], k: in
         rows.append((one.name, pair.moving, pair.fixed, f"{largest} at {course.at(most)}", least, e.signed))
     header = ("pair", "moving", "fixed", "largest area on the fixed body (bounds)", "smallest distance", "signed")
     return Table("The pairs, each with its own page", header, rows, links=[f"{one.name}/{REPORT}" for one in motions])
+
+
+def _loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> list[Table]:
+    """Loads by pair and on each body where all pairs together press most; none without layers."""
+    by_pair = pair_loads(pairs, motions)
+    if not by_pair:
+        return []
+    most = int(np.argmax(np.sum([one.pressure.pressing for one in motions if one.pressure is not None], axis=0)))
+    of_pairs = pairs.of_pairs
+    rows = [(name, of_pairs[name][0], *wrench_texts(load[most])) for name, load in by_pair.items()]
+    rows += [("all pairs", body, *wrench_texts(load[most])) for body, load in body_loads(by_pair, of_pairs).items()]
+    return [Table(LOADS.format(pairs.pairs[0].motion.course.at(most)), WRENCH_HEADER, rows)]
+
+
+def wrench_texts(wrench: Float[np.ndarray, " 6"]) -> tuple[str, str]:
+    """Force [N] and moment [N m]."""
+    return ", ".join(f"{value:.1f}" for value in wrench[:3]), ", ".join(f"{value:.2f}" for value in wrench[3:])
 
 
 def _words(pairs: Sequence[TouchingPair]) -> list[Words]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -11,6 +11,9 @@ from jaxtyping import Float
 from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair
 from geocontact.data.evolution import MM, MM2
+
+WRENCH = tuple(f"{kind}{axis} [{unit}]" for kind, unit in (("f", "N"), ("m", "N m")) for axis in "xyz")
+"""Columns of force and moment."""
 
 
 def total_area(motions: Sequence[MotionResult]) -> Float[np.ndarray, "t k"]:
@@ -38,11 +41,11 @@ def totals_table(motions: Sequence[MotionResult], time: Float[np.ndarray, " t"])
     return pd.DataFrame(columns)
 
 
-def body_loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> dict[str, Float[np.ndarray, "t 6"]]:
-    """Force [N] and moment about the common frame's origin [N m] that contacts put on each body, in that frame.
+def pair_loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> dict[str, Float[np.ndarray, "t 6"]]:
+    """Force [N] and moment about the common frame's origin [N m] on FIXED of each pair with a layer, in that frame.
 
     A pair's load F, M on FIXED (about FIXED's origin, in its frame) is R F and R M + t x R F with the pose R, t of
-    FIXED; MOVING bears the opposite. Bodies of no pair with a layer are not among them.
+    FIXED; MOVING bears the opposite.
     """
     found: dict[str, Float[np.ndarray, "t 6"]] = {}
     for pair, one in zip(pairs.pairs, motions, strict=True):
@@ -52,16 +55,41 @@ def body_loads(pairs: TouchingBodies, motions: Sequence[MotionResult]) -> dict[s
         wrenches = [load.wrench.moved_to(np.zeros(3)) for load in one.pressure.loads]
         force = pose.rotation.apply([each.force for each in wrenches])
         moment = pose.rotation.apply([each.moment for each in wrenches]) + np.cross(pose.translation, force)
-        load = np.hstack([force, moment])
-        for body, sign in ((pair.fixed, 1.0), (pair.moving, -1.0)):
+        found[pair.name] = np.hstack([force, moment])
+    return found
+
+
+def body_loads(
+    loads: Mapping[str, Float[np.ndarray, "t 6"]], bodies: Mapping[str, tuple[str, str]]
+) -> dict[str, Float[np.ndarray, "t 6"]]:
+    """Sum over the contacts of each body, of the loads on FIXED by pair; MOVING bears the opposite.
+
+    `bodies` has FIXED and MOVING of each pair. Bodies of no pair with a layer are not among them.
+    """
+    found: dict[str, Float[np.ndarray, "t 6"]] = {}
+    for name, load in loads.items():
+        for body, sign in zip(bodies[name], (1.0, -1.0), strict=True):
             found[body] = found.get(body, np.zeros_like(load)) + sign * load
     return found
 
 
+def pair_loads_table(
+    loads: Mapping[str, Float[np.ndarray, "t 6"]],
+    bodies: Mapping[str, tuple[str, str]],
+    time: Float[np.ndarray, " t"],
+) -> pd.DataFrame:
+    """Rows of each pair, one per frame and body: what the contact puts on FIXED, and on MOVING."""
+    rows = []
+    for name, load in loads.items():
+        for body, sign in zip(bodies[name], (1.0, -1.0), strict=True):
+            columns: dict[str, object] = {"pair": name, "on": body, "time [s]": time}
+            rows.append(pd.DataFrame(columns | {column: sign * load[:, k] for k, column in enumerate(WRENCH)}))
+    return pd.concat(rows, ignore_index=True)
+
+
 def loads_table(loads: dict[str, Float[np.ndarray, "t 6"]], time: Float[np.ndarray, " t"]) -> pd.DataFrame:
     """A row per frame, with the six numbers of each body."""
-    names = [f"{kind}{axis} [{unit}]" for kind, unit in (("f", "N"), ("m", "N m")) for axis in "xyz"]
-    columns = {f"{body}_{name}": load[:, k] for body, load in loads.items() for k, name in enumerate(names)}
+    columns = {f"{body}_{name}": load[:, k] for body, load in loads.items() for k, name in enumerate(WRENCH)}
     return pd.DataFrame({"time [s]": time, **columns})
 
 

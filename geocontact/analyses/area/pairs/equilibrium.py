@@ -1,0 +1,281 @@
+"""Several bodies at rest on the layers of all pairs, frame by frame: what is read, and what the frames came to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial.transform import RigidTransform
+
+from geocontact.analyses.area.contact import PIECE, elastic_layer
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair
+from geocontact.analyses.area.pairs.bodies import read as read_touching
+from geocontact.analyses.area.pairs.options import PairsOptions, SettlePairsOptions
+from geocontact.analyses.area.pairs.totals import body_loads
+from geocontact.analyses.frame.collector import reserve
+from geocontact.data.errors import InputError
+from geocontact.geometry.curvature import corner_normals
+from geocontact.geometry.surface import Surface
+from geocontact.io.recordings.contact_pairs import DescribedFree
+from geocontact.io.text.tables import listed
+from geocontact.loads.foundation import layer_loads
+from geocontact.loads.pressure_load import PressureLoad
+from geocontact.loads.settling import Rest
+from geocontact.loads.settling_bodies import (
+    COORDINATES,
+    Assembly,
+    BodiesEnergy,
+    FreeBody,
+    PressedPair,
+    settled,
+    turned_too_far,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class PressingBodies:
+    """All bodies, the pairs of them that have a layer, and which bodies are free.
+
+    Parameters
+    ----------
+    touching
+        All pairs, and how the bodies move.
+    names, pairs
+        Pairs that have a layer.
+    free
+        Bodies that come to rest.
+    axes
+        Of each of these: the body along whose axes its coordinates are; None for the common frame's.
+    """
+
+    touching: TouchingBodies
+    names: tuple[str, ...]
+    pairs: tuple[PressedPair, ...]
+    free: Mapping[str, FreeBody]
+    axes: Mapping[str, str | None]
+
+    @property
+    def time(self) -> Float[np.ndarray, " t"]:
+        """Times of the frames."""
+        return self.touching.time
+
+    @cached_property
+    def recorded(self) -> dict[str, RigidTransform]:
+        """Poses of every body in the common frame, as they were recorded."""
+        return {name: self.touching.poses(name) for name in self.touching.motions}
+
+    @cached_property
+    def surfaces(self) -> dict[str, Surface]:
+        """Surface of every body of a pair."""
+        found = {}
+        for pair in self.touching.pairs:
+            found[pair.moving], found[pair.fixed] = pair.bodies.moving, pair.bodies.fixed
+        return found
+
+    def at(self, k: int) -> Assembly:
+        """All bodies in one frame."""
+        poses = {name: course[k] for name, course in self.recorded.items()}
+        axes = {name: RigidTransform.identity() if on is None else poses[on] for name, on in self.axes.items()}
+        return Assembly(self.pairs, poses, axes, self.free)
+
+
+def read(o: SettlePairsOptions) -> PressingBodies:
+    """Everything the description names."""
+    touching = read_touching(PairsOptions(o.description))
+    if not touching.free:
+        what = "no body is free: all stay where they are"
+        raise InputError(o.description, "[[free]]", what, "write one with body, settles and a force")
+    layered = [pair for pair in touching.pairs if pair.options.pressure]
+    if bare := [pair.name for pair in touching.pairs if not pair.options.pressure]:
+        reserve(
+            f"{o.description}: no layer in {listed(bare)}: nothing presses there, whether the bodies overlap or not"
+        )
+    pressing = {name for pair in layered for name in (pair.moving, pair.fixed)}
+    for k, one in enumerate(touching.free, 1):
+        if one.body not in pressing:
+            what = f"{one.body} is in no pair that has a layer: nothing presses on it"
+            raise InputError(o.description, f"[[free]] {k} body", what, "describe the layer of one of its pairs")
+    if not any(one.fx or one.fy or one.fz for one in touching.free):
+        what = "no force acts on any of the bodies: nothing presses them together"
+        raise InputError(o.description, "[[free]]", what, "write fx, fy or fz of one")
+    free = {one.body: _free(one) for one in touching.free}
+    pairs = tuple(_pressed(pair, o) for pair in layered)
+    return PressingBodies(
+        touching, tuple(pair.name for pair in layered), pairs, free, {one.body: one.axes for one in touching.free}
+    )
+
+
+def _free(one: DescribedFree) -> FreeBody:
+    return FreeBody(
+        np.array([one.px, one.py, one.pz]),
+        np.isin(COORDINATES, one.settles),
+        np.array([one.fx, one.fy, one.fz]),
+        np.array([one.springs.get(name, 0.0) for name in COORDINATES]),
+    )
+
+
+def _pressed(pair: TouchingPair, o: SettlePairsOptions) -> PressedPair:
+    """FIXED's layer as `area` makes it, and MOVING."""
+    moving, asked, place = pair.bodies.moving, pair.options, f"[[pairs]] {pair.name}"
+    if not moving.closed:
+        what = f"{pair.moving} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
+        raise InputError(o.description, place, what, "close it, or write closed = true if it is")
+    counted = pair.bodies.settings.moving_faces
+    if counted is not None and not counted.all():
+        reserve(f"{o.description}: {place}: all of {pair.moving} presses, whatever `region_moving` says")
+    edge = PIECE if asked.piece is None else asked.piece
+    with of_pair(o.description, pair.name):
+        layer = elastic_layer(pair.bodies, pair.bodies.settings.fixed_faces, asked, edge)
+    return PressedPair(layer, pair.fixed, moving, corner_normals(moving), pair.moving)
+
+
+@dataclass(frozen=True, eq=False)
+class RestFrame:
+    """All bodies of one frame, and where the search for their equilibrium ended."""
+
+    assembly: Assembly
+    rest: Rest[BodiesEnergy]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all free bodies are at rest."""
+        return self.rest.converged
+
+    @property
+    def apart(self) -> tuple[str, ...]:
+        """Free bodies that no layer presses on."""
+        touched = set()
+        for pair, state in zip(self.assembly.pairs, self.rest.total.states, strict=True):
+            if len(state.pressed):
+                touched |= {pair.moving, pair.fixed}
+        return tuple(name for name in self.assembly.bodies if name not in touched)
+
+
+def settle_frames(pressing: PressingBodies, each: Callable[[RestFrame], None]) -> list[RestFrame]:
+    """Equilibrium of each frame, from where the frame before came to rest, or else from the recorded poses.
+
+    `each` is called with every frame; what it raises ends the work.
+    """
+    frames: list[RestFrame] = []
+    off: Float[np.ndarray, " n"] | None = None
+    for k in range(len(pressing.time)):
+        assembly = pressing.at(k)
+        recorded = assembly.recorded
+        rest = None if off is None else settled(assembly, recorded + off)
+        if rest is None or not rest.converged:
+            rest = settled(assembly, recorded)
+        frames.append(RestFrame(assembly, rest))
+        each(frames[-1])
+        if rest.converged:
+            off = np.where(assembly.free, rest.total.values - recorded, 0.0)
+    return frames
+
+
+def refuse_indeterminate(frame: RestFrame, o: SettlePairsOptions) -> None:
+    """InputError where contact and springs leave a free coordinate anywhere, or two coordinates of a body are one."""
+    body = turned_too_far(frame.assembly, frame.rest.total.values)
+    if body is not None:
+        what = f"{body} is turned by more than 80 degrees about x of its axes, where ry and rz are hardly two"
+        raise InputError(o.description, "[[free]] axes", what, "name a body that it is turned less against")
+    loose = frame.assembly.loose(frame.rest.total) if frame.converged else ()
+    if loose:
+        what = f"nothing holds {' and '.join(loose)}: contacts and springs have no stiffness along it"
+        raise InputError(o.description, "[[free]] settles", what, "leave it out, or write a spring")
+
+
+@dataclass(frozen=True, eq=False)
+class RestingBodies:
+    """What every frame came to; not a number where it came to no rest."""
+
+    pressing: PressingBodies
+    frames: tuple[RestFrame, ...]
+
+    @cached_property
+    def converged(self) -> Bool[np.ndarray, " t"]:
+        """Frames at rest."""
+        return np.array([frame.converged for frame in self.frames])
+
+    @property
+    def kept(self) -> np.ndarray:
+        """Numbers of the frames at rest."""
+        return np.flatnonzero(self.converged)
+
+    @cached_property
+    def values(self) -> Float[np.ndarray, "t n"]:
+        """Coordinates of all free bodies [m, rad]."""
+        lost = np.full(6 * len(self.pressing.free), np.nan)
+        return np.array([frame.rest.total.values if frame.converged else lost for frame in self.frames])
+
+    def coordinates(self, body: str) -> Float[np.ndarray, "t 6"]:
+        """Those of one free body, in the order of `COORDINATES`."""
+        k = list(self.pressing.free).index(body)
+        return self.values[:, 6 * k : 6 * k + 6]
+
+    @cached_property
+    def residuals(self) -> Float[np.ndarray, "t b"]:
+        """Residual force of each free body [N]; also where that is too much."""
+        return np.array([frame.assembly.residuals(frame.rest.total) for frame in self.frames])
+
+    @cached_property
+    def poses(self) -> dict[str, RigidTransform]:
+        """Poses of every body in the common frame in the frames at rest."""
+        placed = [self.frames[k].assembly.placed(self.frames[k].rest.total.values) for k in self.kept]
+        return {name: RigidTransform.concatenate([one[name] for one in placed]) for name in self.pressing.recorded}
+
+    @cached_property
+    def contacts(self) -> dict[str, list[PressureLoad | None]]:
+        """Load on FIXED of each pair, in its frame; None without rest."""
+        return {
+            name: [
+                layer_loads(pair.layer, frame.rest.total.states[k])["total"] if frame.converged else None
+                for frame in self.frames
+            ]
+            for k, (name, pair) in enumerate(zip(self.pressing.names, self.pressing.pairs, strict=True))
+        }
+
+    def of_contact(self, name: str, value: Callable[[PressureLoad], float]) -> Float[np.ndarray, " t"]:
+        """A number of the load of one pair."""
+        return np.array([np.nan if load is None else value(load) for load in self.contacts[name]])
+
+    @cached_property
+    def wrenches(self) -> dict[str, Float[np.ndarray, "t 6"]]:
+        """Force [N] and moment about the common frame's origin [N m] on FIXED of each pair, in the common frame."""
+        found = {}
+        for name, pair in zip(self.pressing.names, self.pressing.pairs, strict=True):
+            rows = np.full((len(self.frames), 6), np.nan)
+            for place, k in enumerate(self.kept):
+                load = self.contacts[name][k]
+                if load is not None:
+                    there = load.wrench.seen_from(self.poses[pair.fixed][place], "common").moved_to(np.zeros(3))
+                    rows[k] = [*there.force, *there.moment]
+            found[name] = rows
+        return found
+
+    @property
+    def loads(self) -> dict[str, Float[np.ndarray, "t 6"]]:
+        """What all contacts together put on each body: force [N], moment about the common frame's origin [N m]."""
+        return body_loads(self.wrenches, self.pressing.touching.of_pairs)
+
+    @property
+    def largest_strain(self) -> dict[str, float]:
+        """Largest strain of each pair's layer [-]."""
+        found = {}
+        for k, (name, pair) in enumerate(zip(self.pressing.names, self.pressing.pairs, strict=True)):
+            states = [self.frames[j].rest.total.states[k] for j in self.kept]
+            strains = [state.depth / pair.layer.thickness[state.pressed] for state in states]
+            found[name] = max(float(strain.max(initial=0.0)) for strain in strains)
+        return found
+
+    def face_pressure(self, body: str, frame: int) -> Float[np.ndarray, " f"]:
+        """Mean pressure of each face of a body [Pa], of all pairs whose layer it has; frame at rest."""
+        total = np.zeros(len(self.pressing.surfaces[body].faces))
+        for k, pair in enumerate(self.pressing.pairs):
+            if pair.fixed == body:
+                state, pieces = self.frames[frame].rest.total.states[k], pair.layer.pieces
+                pressure = np.zeros(len(pieces.area))
+                pressure[state.pressed] = state.pressure
+                total += pieces.face_means(pressure, len(total))
+        return total

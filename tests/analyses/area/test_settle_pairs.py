@@ -1,0 +1,292 @@
+"""Several bodies at rest on each other: `knee settle` for one pair, a hip with a ball on its head by hand, refusals."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
+
+import geocontact as gc
+from geocontact.analyses.area.pairs.rest import SettlePairsResult
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.view.page.content import Scene, Table
+from meshes.simple_shapes import cup, sphere
+from tests.analyses.area.test_pairs import described, few, solid, turned
+from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, call, done, unpictured, written
+
+E, NU = 500.0, 0.46
+M = 1e6 * E * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
+LAYER = f'modulus = {{ value = {E:g}, unit = "MPa" }}, poisson = {NU}'
+
+
+def settle(file: Path) -> SettlePairsResult:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        return gc.settle_pairs(file)
+
+
+def knee(folder: Path, more: str = "") -> Path:
+    """Femur and insert of the shipped knee in three frames."""
+    motion = few(folder, "gait.csv")
+    text = f"""unit = "mm"
+[[bodies]]
+name = "femur"
+mesh = "{FEMUR.as_posix()}"
+motion = "{motion.as_posix()}"
+[[bodies]]
+name = "insert"
+mesh = "{INSERT.as_posix()}"
+[[pairs]]
+moving = "femur"
+fixed = "insert"
+region = "ny > 0.25"
+layer = {{ {LAYER}, piece = {{ value = 1, unit = "mm" }} }}
+[[free]]
+body = "femur"
+axes = "insert"
+settles = ["rx", "ty"]
+fy = {{ value = -2000, unit = "N" }}
+"""
+    return described(folder, text + more)
+
+
+def test_one_pair_comes_to_rest_where_knee_settle_has_it(tmp_path: Path) -> None:
+    """Both stop at residuals of a millionth of the load, from other starts: 2e-3 N over 10 kN/mm is 2e-10 m."""
+    ours = settle(knee(tmp_path))
+    theirs = gc.knee.settle(
+        FEMUR,
+        INSERT,
+        unit="mm",
+        side="right",
+        motion=tmp_path / "gait.csv",
+        load=2000.0,
+        modulus=gc.MPa(E),
+        poisson=NU,
+        region="ny>0.25",
+        piece=gc.mm(1),
+        free=("adduction",),
+    )
+    assert theirs.settled.converged.all() and ours.resting.converged.all()
+    away = ours.resting.coordinates("femur") - theirs.settled.coordinates
+    assert np.abs(away[:, :3]).max() < 1e-9 and np.abs(away[:, 3:]).max() < 1e-7
+    np.testing.assert_allclose(ours.pressure["femur_insert"], theirs.pressure, rtol=1e-5)
+    np.testing.assert_allclose(ours.area["femur_insert"], theirs.area, rtol=1e-12)
+    np.testing.assert_allclose(-ours.loads["insert"][:, 1], theirs.force["total"], rtol=1e-5)
+    np.testing.assert_allclose(-ours.loads["insert"][:, 1], 2000.0, rtol=1e-5)
+
+
+def test_settled_poses_are_a_motion_whose_pressures_are_the_same(tmp_path: Path) -> None:
+    file = knee(tmp_path)
+    rest = settle(file)
+    with unpictured():
+        rest.write(tmp_path / "out")
+    text = file.read_text("utf-8").replace((tmp_path / "gait.csv").as_posix(), "out/poses_femur.csv")
+    with pytest.warns(InputWarning, match=r"\[\[free\]\] has no effect"):
+        again = gc.area_pairs(described(tmp_path, text), rule="clip", workers=1)
+    table = again.table("femur_insert/pressure")
+    np.testing.assert_allclose(table["peak [MPa]"], rest.pressure["femur_insert"] * 1e-6, rtol=1e-4)
+    np.testing.assert_allclose(table["force [N]"], rest.force["femur_insert"], rtol=1e-4)
+
+
+RADII = {"cup": 24e-3, "head": 18e-3, "ball": 10e-3}
+THICK = {"cup": 5e-3, "head": 6e-3}
+
+
+def ball_on_sphere(layer: float, rigid: float, thickness: float, between: float) -> float:
+    """Force of a rigid ball on a layer with the radius `layer`, hollow or full, middles `between` apart.
+
+    A point at the angle a from the line of the middles is s = sqrt(R^2 + e^2 - 2 R e cos a) from the ball's middle, as
+    deep as r - s; the force is the derivative of the energy of all points to e.
+    """
+
+    def of_ring(a: float) -> float:
+        s = np.sqrt(layer**2 + between**2 - 2.0 * layer * between * np.cos(a))
+        depth = rigid - s
+        pull = (layer * np.cos(a) - between) / s
+        return 2.0 * np.pi * layer**2 * np.sin(a) * M * max(depth, 0.0) / thickness * pull
+
+    reach = (layer**2 + between**2 - rigid**2) / (2.0 * layer * between)
+    return float(quad(of_ring, 0.0, np.arccos(np.clip(reach, -1.0, 1.0)))[0])
+
+
+TURN, PLACE = Rotation.from_rotvec([0.4, -0.7, 1.1]), np.array([100.0, -30.0, 70.0])
+
+
+def hip(folder: Path, head: float = -900.0, ball: float = -400.0) -> Path:
+    """A cup that lies askew, a head in it and a ball on the head, apart at first; forces along the cup's y."""
+    meshes = {
+        "cup": solid(folder, "cup", cup(24.0, 5.0, 40)),
+        "head": solid(folder, "head", sphere(18.0, 40)),
+        "ball": solid(folder, "ball", sphere(10.0, 32)),
+    }
+    places = {"cup": 0.0, "head": -5.6, "ball": -5.6 + 18.0 + 10.3}
+    text = 'unit = "mm"\n'
+    for name, mesh in meshes.items():
+        turn = TURN * Rotation.from_rotvec([0.0, 0.0, 0.3] if name == "head" else [0.0, 0.0, 0.0])
+        turned(folder, f"{name}.csv", PLACE + TURN.apply([0.0, places[name], 0.0]), turn)
+        text += f'[[bodies]]\nname = "{name}"\nmesh = "{mesh}"\nmotion = "{name}.csv"\n'
+    for moving, fixed in (("head", "cup"), ("ball", "head")):
+        thick = f'thickness = {{ value = {1e3 * THICK[fixed]:g}, unit = "mm" }}, piece = {{ value = 0.7, unit = "mm" }}'
+        text += f'[[pairs]]\nmoving = "{moving}"\nfixed = "{fixed}"\nlayer = {{ {LAYER}, {thick} }}\n'
+    for name, force in (("head", head), ("ball", ball)):
+        text += f'[[free]]\nbody = "{name}"\naxes = "cup"\nsettles = ["ty"]\nfy = {{ value = {force:g}, unit = "N" }}\n'
+    return described(folder, text)
+
+
+@pytest.fixture(scope="module")
+def resting(tmp_path_factory: pytest.TempPathFactory) -> SettlePairsResult:
+    return settle(hip(tmp_path_factory.mktemp("hip")))
+
+
+def sunk(fixed: str, moving: str, start: float, sign: float, load: float) -> float:
+    """How far MOVING sinks from touching, by the closed form."""
+    layer, rigid = RADII[fixed], RADII[moving]
+
+    def excess(depth: float) -> float:
+        return abs(ball_on_sphere(layer, rigid, THICK[fixed], start + sign * depth)) - load
+
+    return float(brentq(excess, 1e-7, 1e-3))
+
+
+def test_a_head_in_a_socket_with_a_ball_on_it_is_the_closed_form(resting: SettlePairsResult) -> None:
+    """The socket bears both forces, the head that of the ball: how far each sinks, peaks, and who bears what."""
+    assert resting.resting.converged.all()
+    in_cup = sunk("cup", "head", RADII["cup"] - RADII["head"], 1.0, 1300.0)
+    on_head = sunk("head", "ball", RADII["head"] + RADII["ball"], -1.0, 400.0)
+    head, ball = resting.resting.coordinates("head")[:, 1], resting.resting.coordinates("ball")[:, 1]
+    np.testing.assert_allclose(-head - (RADII["cup"] - RADII["head"]), in_cup, rtol=0.01)
+    np.testing.assert_allclose(RADII["head"] + RADII["ball"] - (ball - head), on_head, rtol=0.01)
+    off_pole = 0.5 * (0.7e-3 / np.sqrt(3.0)) ** 2  # squared; the middle of the nearest piece of 0.7 mm
+    for pair, fixed, depth, curved in (
+        ("head_cup", "cup", in_cup, 1.0 / RADII["head"] - 1.0 / RADII["cup"]),
+        ("ball_head", "head", on_head, 1.0 / RADII["ball"] + 1.0 / RADII["head"]),
+    ):
+        deepest = resting.pressure[pair] * THICK[fixed] / M
+        assert (deepest < 1.005 * depth).all() and (deepest > 0.995 * (depth - off_pole * curved)).all(), pair
+    down = TURN.apply([0.0, -1.0, 0.0])
+    for body, along in (("cup", 1300.0), ("head", -900.0), ("ball", -400.0)):
+        np.testing.assert_allclose(resting.loads[body][:, :3] @ down, along, rtol=1e-4)
+    np.testing.assert_allclose(sum(resting.loads.values()), 0.0, atol=1e-9)
+
+
+def test_loads_of_pairs_are_about_the_origin_of_the_common_frame(resting: SettlePairsResult) -> None:
+    """By hand from the file's own columns: the centre of pressure times the force, which has no moment about it."""
+    table = resting.table("contacts")
+    force = table[["fx [N]", "fy [N]", "fz [N]"]].to_numpy()
+    centre = table[["cop_x [mm]", "cop_y [mm]", "cop_z [mm]"]].to_numpy() * 1e-3
+    moment = table[["mx [N m]", "my [N m]", "mz [N m]"]].to_numpy()
+    assert np.linalg.norm(moment, axis=1).min() > 20.0
+    np.testing.assert_allclose(moment, np.cross(centre, force), atol=2e-3 * np.abs(moment).max())
+    rows = table[table["on"] == "cup"][["fx [N]", "fy [N]", "fz [N]", "mx [N m]", "my [N m]", "mz [N m]"]]
+    np.testing.assert_array_equal(rows.to_numpy(), resting.loads["cup"])
+
+
+def test_the_page_shows_all_bodies_where_they_rest(resting: SettlePairsResult) -> None:
+    page = resting.pages({})["report.html"].of(101)
+    scene = next(one for one in page.sections if isinstance(one, Scene))
+    assert [body.name for body in scene.bodies] == ["head", "cup", "ball"]
+    assert [scene.bodies[one.body].name for one in scene.maps] == ["cup", "head"]
+    assert [one.values.max() > 1.0 for one in scene.maps] == [True, True]
+    table = next(one for one in page.sections if isinstance(one, Table))
+    whole = [("all pairs", body) for body in ("cup", "head", "ball")]
+    assert [row[:2] for row in table.rows] == [("head_cup", "cup"), ("ball_head", "head"), *whole]
+
+
+def on_plate(folder: Path, free: str, last: tuple[int, int, int] = (0, 20, 0)) -> Path:
+    """A ball over a plate in three frames; `last` is its place in the last one [mm]."""
+    head = "time [s], tx [mm], ty [mm], tz [mm], qw, qx, qy, qz"
+    rows = [head, *(f"{t}, 0, 20, 0, 1, 0, 0, 0" for t in (0, 1)), f"2, {', '.join(map(str, last))}, 1, 0, 0, 0"]
+    written(folder / "ball.csv", "\n".join(rows) + "\n")
+    text = f"""unit = "mm"
+[[bodies]]
+name = "ball"
+mesh = "{SPHERE.as_posix()}"
+motion = "ball.csv"
+[[bodies]]
+name = "plate"
+mesh = "{PLATE.as_posix()}"
+[[pairs]]
+moving = "ball"
+fixed = "plate"
+layer = {{ {LAYER}, piece = {{ value = 2, unit = "mm" }} }}
+{free}"""
+    return described(folder, text)
+
+
+DOWN = '[[free]]\nbody = "ball"\nsettles = ["ty"]\nfy = { value = -300, unit = "N" }\n'
+
+
+def test_a_frame_without_rest_has_no_numbers(tmp_path: Path) -> None:
+    """Far beside the plate the ball falls on: that frame is empty, and said."""
+    result = settle(on_plate(tmp_path, DOWN, (500, 20, 0)))
+    assert result.resting.converged.tolist() == [True, True, False]
+    assert any("1 of 3 frames did not come to rest (at 2 s)" in line for line in result.warnings)
+    for name in ("bodies", "contacts", "loads"):
+        numbers = result.table(name).drop(columns=["pair", "on", "at_rest", "ball_residual [N]"], errors="ignore")
+        assert numbers.iloc[1].notna().all() and numbers.iloc[2].drop("time [s]").isna().all(), name
+    assert result.table("bodies")["ball_residual [N]"][2] == pytest.approx(300.0)
+    assert len(result.table("poses_ball")) == 2
+
+
+@pytest.mark.parametrize(
+    ("free", "said"),
+    [
+        (DOWN.replace("-300", "300"), "no frame came to rest: no layer presses on ball wherever its force leads"),
+        (DOWN + DOWN, "[[free]] 2 body: ball is free twice"),
+        (DOWN.replace('"ball"', '"bowl"'), "[[free]] 1 body: no body is called bowl; there are ball, plate"),
+        (DOWN + 'axes = "ball"\n', "[[free]] 1 axes: ball comes to rest itself"),
+        (DOWN + 'axes = "floor"\n', "[[free]] 1 axes: no body is called floor"),
+        (DOWN.replace("ty", "t"), "[[free]] 1 settles: 't' is no coordinate; there are tx, ty"),
+        (DOWN.replace('"ty"', ""), "[[free]] 1 settles: is empty"),
+        (DOWN.replace('"ty"', '"ty", "tx"'), "nothing holds ball tx: contacts and springs have no stiffness along it"),
+        (DOWN.replace("fy", "# fy"), "[[free]]: no force acts on any of the bodies"),
+        (
+            DOWN + '[free.springs]\nrx = { value = 1, unit = "N m/deg" }\n',
+            "rx: is held, and its spring has no effect; add rx to settles",
+        ),
+        ("", "[[free]]: no body is free"),
+    ],
+)
+def test_what_cannot_come_to_rest_is_refused(tmp_path: Path, free: str, said: str) -> None:
+    with pytest.raises(InputError) as refused:
+        settle(on_plate(tmp_path, free))
+    assert said in str(refused.value), refused.value
+    assert "\n" not in str(refused.value)
+
+
+def test_pairs_without_a_layer_bear_nothing_and_it_is_said(tmp_path: Path) -> None:
+    file = on_plate(tmp_path, DOWN)
+    more = '[[pairs]]\nname = "bare"\nmoving = "plate"\nfixed = "ball"\n'
+    with pytest.warns(InputWarning, match="no layer in bare: nothing presses there"):
+        result = gc.settle_pairs(described(tmp_path, file.read_text("utf-8") + more))
+    assert set(result.force) == {"ball_plate"}
+    without = "\n".join(line for line in file.read_text("utf-8").splitlines() if not line.startswith("layer"))
+    with pytest.raises(InputError, match=r"\[\[free\]\] 1 body: ball is in no pair that has a layer"):
+        settle(described(tmp_path, without))
+
+
+def test_a_light_body_beside_a_heavy_one_is_not_taken_for_at_rest(tmp_path: Path) -> None:
+    """What is off is a share of what each body bears: 1 N hangs in the air beside 5 kN."""
+    text = on_plate(tmp_path, DOWN.replace("-300", "-5000")).read_text("utf-8")
+    written(tmp_path / "light.csv", (tmp_path / "ball.csv").read_text("utf-8").replace(", 0, 20,", ", 400, 20,"))
+    light = f'[[bodies]]\nname = "light"\nmesh = "{SPHERE.as_posix()}"\nmotion = "light.csv"\n'
+    pair = '[[pairs]]\nmoving = "light"\nfixed = "plate"\n' + next(
+        line for line in text.splitlines() if "layer" in line
+    )
+    body = DOWN.replace('"ball"', '"light"').replace("-300", "-1")
+    with pytest.raises(InputError, match="no layer presses on light wherever its force leads"):
+        settle(described(tmp_path, f"{text}{light}{pair}\n{body}"))
+
+
+def test_the_command_writes_poses_loads_and_a_page(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    with unpictured():
+        said = done(call("settle-pairs", on_plate(tmp_path, DOWN), "--out", out, folder=out))
+    assert "3 of 3 frames at rest: ball" in said.out and "ball_plate: force up to 300" in said.out
+    for name in ("bodies.csv", "contacts.csv", "loads.csv", "poses_ball.csv", "run.json"):
+        assert (out / name).is_file(), name
