@@ -7,7 +7,8 @@ segment's length for centre and radii.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 Sex = Literal["female", "male"]
@@ -82,3 +83,38 @@ SEGMENTS: dict[Sex, dict[str, BodySegment]] = {
     sex: {name: BodySegment(_ENDS[name], *numbers) for name, numbers in rows.items()} for sex, rows in _TABLE.items()
 }
 """By sex and name; a body has two of each but head and trunk."""
+SINGLE = ("head", "trunk")
+"""Segments of which a body has one."""
+
+
+@dataclass(frozen=True)
+class BodySegments:
+    """Segments of one person's body by name, two of each but `SINGLE`.
+
+    Parameters
+    ----------
+    sex
+        Row of the table of adults.
+    stature
+        Of the person whose lengths the segments have [m].
+    rows
+        Segments by name.
+    """
+
+    sex: Sex
+    stature: float
+    rows: Mapping[str, BodySegment] = field(hash=False, repr=False)
+
+    def __getitem__(self, name: str) -> BodySegment:
+        """Segment of that name; KeyError for another one."""
+        return self.rows[name]
+
+    @property
+    def whole(self) -> float:
+        """Sum of all shares of mass, both sides: 1 but for rounding of the table."""
+        return sum((1.0 if name in SINGLE else 2.0) * row.mass for name, row in self.rows.items())
+
+
+def body_segments(sex: Sex) -> BodySegments:
+    """Segments of the mean woman or man."""
+    return BodySegments(sex, STATURE[sex], SEGMENTS[sex])

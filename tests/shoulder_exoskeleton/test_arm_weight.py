@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from geocontact.data.body_segments import body_segments
 from geocontact.shoulder_exoskeleton.human_arm import arm_moment
 from geocontact.shoulder_exoskeleton.support.arm_trial import scales_of
 
@@ -14,9 +15,9 @@ def test_the_moment_of_a_man_s_arm_by_hand() -> None:
     by_hand = weight * (
         0.0271 * 0.5772 * 0.2817 + 0.0162 * (0.2817 + 0.4574 * 0.2689) + 0.0061 * (0.2817 + 0.2689 + 0.79 * 0.0862)
     )
-    assert arm_moment(73.0, "male", 0.2817) == pytest.approx(by_hand, rel=1e-12)
-    assert arm_moment(73.0, "male", 2.0 * 0.2817) == pytest.approx(2.0 * by_hand, rel=1e-12)
-    assert arm_moment(61.0, "female", 0.268) < 0.8 * arm_moment(70.0, "male", 0.278)
+    assert arm_moment(73.0, body_segments("male"), 0.2817) == pytest.approx(by_hand, rel=1e-12)
+    assert arm_moment(73.0, body_segments("male"), 2.0 * 0.2817) == pytest.approx(2.0 * by_hand, rel=1e-12)
+    assert arm_moment(61.0, body_segments("female"), 0.268) < 0.8 * arm_moment(70.0, body_segments("male"), 0.278)
 
 
 def test_scales_are_shares_of_the_heaviest_maker() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.body_segments import SEGMENTS
+from geocontact.data.body_segments import SEGMENTS, body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.joint import free, gimbal, weld
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -47,7 +47,7 @@ def empty(frames: int = FRAMES) -> HandLoad:
 
 
 def torque(track: ArmTrack, load: HandLoad, cutoff: float | None = None) -> np.ndarray:
-    return elevation_torque(track, load, mass=80.0, sex="male", gravity=G, cutoff=cutoff).total
+    return elevation_torque(track, load, mass=80.0, segments=body_segments("male"), gravity=G, cutoff=cutoff).total
 
 
 @pytest.mark.parametrize("elevation", [0.2, 0.8, np.pi / 2, 2.2])
@@ -131,7 +131,7 @@ def of_trial(trial: OverheadTrial, side: str, work: ToolWork, turn: Rotation | N
     frame = arm_motions(markers, MarkerSettings(gravity=tuple(gravity), upright=(0.0, 0.25))).frame
     track = arm_track(markers, frame, "left" if side == "left" else "right")
     load = hand_load(work, track.side, trial.participant.dominant, trial.phase == 2)
-    return elevation_torque(track, load, mass=61.0, sex="female", gravity=gravity).total
+    return elevation_torque(track, load, mass=61.0, segments=body_segments("female"), gravity=gravity).total
 
 
 def test_the_laboratory_does_not_matter(trial: OverheadTrial) -> None:

@@ -15,6 +15,7 @@ from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import doubt_tool, push_force, tool_current
 from geocontact.analyses.shoulder.study_checks import check_study, doubt_share
+from geocontact.data.body_segments import body_segments
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
@@ -80,7 +81,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
     arms = [arm for trial in bare or study.trials for arm in _arms(o, study, trial, lengths[trial.person])]
     unseen = {
-        name: arm_moment(each.mass, each.sex, lengths[name].upper_arm)
+        name: arm_moment(each.mass, body_segments(each.sex), lengths[name].upper_arm)
         for name, each in study.persons.items()
         if name not in {trial.person for trial in bare or study.trials}
     }
@@ -99,7 +100,7 @@ def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, l
     push = None if trial.push is None else push_force(trial.push, seen.time)
     use = ToolUse(work, current > Thresholds().on, current, push)
     dominant: Side = "right" if person.dominant == "right" else "left"
-    worker = Worker(trial.person, person.mass, person.sex, dominant, lengths)
+    worker = Worker(trial.person, person.mass, body_segments(person.sex), dominant, lengths)
     settings = MarkerSettings(upright=trial.upright, gap_limit=o.gap_limit)
     arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use, o.cutoff)
     for note in notes:
