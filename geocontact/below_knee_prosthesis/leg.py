@@ -18,7 +18,7 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.body_segments import BodySegments, body_segments
 from geocontact.data.multibody.model import Marker
 from geocontact.data.parameter import Number, Source
 
@@ -145,6 +145,9 @@ SOCKET_RADIUS, FOOT_SIZE = 0.055, (0.24, 0.06, 0.08)
 """m; of the socket as a hollow cylinder, and of the foot shell as a box; invented."""
 
 
+MAN = body_segments("male")
+
+
 @dataclass(frozen=True)
 class Person:
     """Who walks.
@@ -153,8 +156,8 @@ class Person:
     ----------
     mass
         Of the body with the prosthesis [kg].
-    sex
-        Row of de Leva's table.
+    segments
+        Segments of the body as it is without the prosthesis.
     residual
         Share of the shank's length that is left [-].
     prosthesis
@@ -162,7 +165,7 @@ class Person:
     """
 
     mass: float
-    sex: Sex = "male"
+    segments: BodySegments = MAN
     residual: float = RESIDUAL
     prosthesis: float = SOCKET + PYLON + FOOT
 
@@ -251,7 +254,7 @@ class Leg:
 
     def thigh_body(self) -> Inertial:
         """Body of the thigh in its frame, by de Leva's shares of mass and length."""
-        of = SEGMENTS[self.person.sex]["thigh"]
+        of = self.person.segments["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
         return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
@@ -262,7 +265,7 @@ class Leg:
         Whole it has de Leva's mass, and his mass centre tells its taper: the limb weighs the same whatever else is
         known of the person.
         """
-        of = SEGMENTS[self.person.sex]["shank"]
+        of = self.person.segments["shank"]
         whole = Frustum(self.shank, self.knee_radius, taper(of.centre) * self.knee_radius)
         density = of.mass * self.person.mass / whole.volume
         return whole.cut(self.person.residual * self.shank).body(density)
@@ -310,7 +313,7 @@ class Leg:
             "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
             "residual_share": _share(self.person.residual),
             "ankle_over_knee_radius": Number(
-                taper(SEGMENTS[self.person.sex]["shank"].centre),
+                taper(self.person.segments["shank"].centre),
                 "derived",
                 "of the frustum of a whole shank, which puts its mass centre where de Leva has it",
             ),

@@ -30,6 +30,7 @@ from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, si
 from geocontact.below_knee_prosthesis.schedule import FulcrumSchedule
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
+from geocontact.data.body_segments import body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
@@ -144,7 +145,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     walk = fitted_walk(
         recorded.standing,
         recorded.seen,
-        Person(recorded.mass, o.sex, o.residual),
+        Person(recorded.mass, body_segments(o.sex), o.residual),
         recorded.foot,
         recorded.fulcrum,
         recorded.other,

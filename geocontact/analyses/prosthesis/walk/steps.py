@@ -34,6 +34,7 @@ from geocontact.below_knee_prosthesis.evaluation import PlateStance, longest_sta
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.below_knee_prosthesis.plate_checks import require_covering
 from geocontact.below_knee_prosthesis.recorded_walk import AFTER, BEFORE, INSIDE, with_residual
+from geocontact.data.body_segments import body_segments
 from geocontact.data.errors import InputError
 from geocontact.dynamics.recorded_inputs import recorded_inputs
 from geocontact.io.mocap.force_plates import plate_named
@@ -106,7 +107,7 @@ def read(o: ProsthesisWalkOptions) -> RecordedPerson:
         check_trial(TrialInputs(functional, still), only=MOVED_CHECKS)
     standing, seen = lab.right(still), lab.right(walking)
     joints = NO_JOINTS if functional is None else standing_joints(standing, lab.right(functional))
-    person = Person(o.mass, o.sex, o.residual)
+    person = Person(o.mass, body_segments(o.sex), o.residual)
     made = standing_amputee(standing, person, foot, fulcrum, foot.record.below, joints, o.height)
     length = residual_of(standing, o.residual_length, o.residual_markers, o.side)
     leg = made.prosthetic if length is None else with_residual(made.prosthetic, length)
