@@ -18,7 +18,7 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.body_segments import BodySegments, body_segments
+from geocontact.data.body_segments import LEVA, BodySegments, body_segments
 from geocontact.data.multibody.model import Marker
 from geocontact.data.parameter import Number, Source
 
@@ -253,7 +253,7 @@ class Leg:
         return np.asarray(self.turn.inv().apply(self.keel - self.bushing))
 
     def thigh_body(self) -> Inertial:
-        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
+        """Body of the thigh in its frame, by the segment's shares of mass and length."""
         of = self.person.segments["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
@@ -262,7 +262,7 @@ class Leg:
     def residual_body(self) -> Inertial:
         """Body of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank.
 
-        Whole it has de Leva's mass, and his mass centre tells its taper: the limb weighs the same whatever else is
+        Whole it has the segment's mass, and its mass centre gives the taper: the limb weighs the same whatever else is
         known of the person.
         """
         of = self.person.segments["shank"]
@@ -292,7 +292,10 @@ class Leg:
 
     def numbers(self) -> Mapping[str, Number]:
         """Every number of the segments in SI, and where it is from: what a simulation takes of this leg."""
-        leva = "de Leva 1996, of the body's mass; the study takes the same table"
+        masses, shapes = self.person.segments.source, self.person.segments.shape_source
+        has = f"{shapes.removesuffix(' 1996')} has it"
+        same = "; the study takes the same table" if masses == LEVA else ""
+        whole = "de Leva's mass" if masses == LEVA else f"the mass by {masses}"
         measured = "from the markers of the standing trial"
         weighed = self.person.prosthesis != SOCKET + PYLON + FOOT
         source: Source = "derived" if weighed else "invented"
@@ -309,15 +312,15 @@ class Leg:
             **_places("keel", self.keel, f"origin of the keel's frame K in the shank's, {measured}"),
             **_places("turn", self.turn.as_rotvec(), f"of K in the shank's frame as a rotation vector, {measured}"),
             **_offset(self.offset),
-            "thigh_mass": Number(thigh[0], "derived", leva),
-            "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
+            "thigh_mass": Number(thigh[0], "derived", f"{masses}, of the body's mass{same}"),
+            "thigh_centre": Number(float(-thigh[1][1]), "derived", f"of its mass, below the hip; {shapes}"),
             "residual_share": _share(self.person.residual),
             "ankle_over_knee_radius": Number(
                 taper(self.person.segments["shank"].centre),
                 "derived",
-                "of the frustum of a whole shank, which puts its mass centre where de Leva has it",
+                f"of the frustum of a whole shank, which puts its mass centre where {has}",
             ),
-            "residual_mass": Number(residual[0], "derived", "that frustum cut off, with de Leva's mass"),
+            "residual_mass": Number(residual[0], "derived", f"that frustum cut off, with {whole}"),
             "residual_centre": Number(float(-residual[1][1]), "derived", "of its mass, below the knee"),
             "socket_mass": Number(socket, source, f"with liner{shared}"),
             "pylon_mass": Number(pylon, source, f"with adapters{shared}"),

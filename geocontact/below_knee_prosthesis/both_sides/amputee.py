@@ -1,9 +1,10 @@
 """A person with both legs: mass of each segment, all of them together the body mass, with trunk, head and arms as one
 rigid body.
 
-Masses, mass centres and radii of gyration are de Leva's (1996), lengths those of his mean person over the stature. He
-does not say where head and shoulders are above the hips: those are shares of the stature as well (Drillis & Contini
-1966, Body segment parameters, Office of Vocational Rehabilitation, report 1166-03, as Winter 2009 prints it, fig. 4.1).
+Masses, mass centres and radii of gyration are those of the person's segments, by default de Leva's (1996), lengths
+those of his mean person over the stature. He does not say where head and shoulders are above the hips: those are shares
+of the stature as well (Drillis & Contini 1966, Body segment parameters, Office of Vocational Rehabilitation, report
+1166-03, as Winter 2009 prints it, fig. 4.1).
 """
 
 from __future__ import annotations
@@ -150,10 +151,12 @@ class Amputee:
         own |= {name: number for name, number in foot.items() if not name.startswith("sole ")}
         mass, centre, inertia = self.pelvis_body()
         above = share_of_body(self.prosthetic.person.segments) * self.mass
-        rest = f"what the legs leave, trunk, head and arms included; de Leva has {above:.1f} kg of those"
+        body = self.prosthetic.person.segments
+        has = f"{body.source.removesuffix(' 1996')} has {above:.1f} kg of those"
+        rest = f"what the legs leave, trunk, head and arms included; {has}"
         own["stature"] = Number(self.stature, "derived", "given, or from thigh and shank: 0.491 of it")
         own["pelvis mass"] = Number(mass, "derived", rest)
-        stands = "de Leva 1996; upright, arms hanging; heights after Drillis & Contini 1966"
+        stands = f"{body.shape_source}; upright, arms hanging; heights after Drillis & Contini 1966"
         for k, axis in enumerate("xyz"):
             own[f"pelvis centre_{axis}"] = Number(float(centre[k]), "derived", stands)
         for k, l in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):

@@ -88,7 +88,7 @@ class IntactLeg:
         return float(self.hallux[0] - self.heel[0])
 
     def thigh_body(self) -> Inertial:
-        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
+        """Body of the thigh in its frame, by the segment's shares of mass and length."""
         of = self.person.segments["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
@@ -101,7 +101,7 @@ class IntactLeg:
 
     @property
     def density(self) -> float:
-        """Density of that frustum with de Leva's mass of a shank [kg/m³]."""
+        """Density of that frustum with the mass of a shank [kg/m³]."""
         return self.person.segments["shank"].mass * self.person.mass / self.shank_frustum.volume
 
     def shank_body(self) -> Inertial:
@@ -161,7 +161,7 @@ class IntactLeg:
 
     def numbers(self) -> Mapping[str, Number]:
         """Every number of the segments in SI, and where it is from."""
-        leva, measured = "de Leva 1996, of the body's mass", "from the markers of the standing trial"
+        leva, measured = f"{self.person.segments.source}, of the body's mass", "from the markers of the standing trial"
         rear, toes = self.foot_bodies()
         return {
             "thigh_length": Number(self.thigh, "derived", measured),

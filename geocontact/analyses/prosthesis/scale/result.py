@@ -32,6 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, residual_of
@@ -59,7 +60,6 @@ from geocontact.below_knee_prosthesis.from_markers import as_right, of_side
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.below_knee_prosthesis.recorded_walk import with_residual
-from geocontact.data.body_segments import body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -157,12 +157,13 @@ def read(o: ProsthesisScaleOptions) -> Stood:
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
     mass = cast(float, o.mass)
-    person = Person(mass, body_segments(o.sex), o.residual)
+    segments = person_segments(o.sex, o.age, mass, o.height, {}, ("", ""))
+    person = Person(mass, segments, o.residual)
     if o.prosthesis_mass is not None:
         if o.prosthesis_mass <= keel:
             what = f"{o.prosthesis_mass:g} kg are less than the keel alone, {keel:.2f} kg"
             raise InputError("", "`prosthesis_mass`", what, "give that of socket, pylon and foot")
-        person = Person(mass, body_segments(o.sex), o.residual, o.prosthesis_mass - keel)
+        person = Person(mass, segments, o.residual, o.prosthesis_mass - keel)
     return Stood(seen, moving, joints, person, foot, fulcrum)
 
 

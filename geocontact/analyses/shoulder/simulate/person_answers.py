@@ -13,9 +13,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.shoulder.simulate.arms import Worn
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.data.body_segments import body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -125,7 +125,8 @@ def person_answers(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulate
 
 
 def _given(o: ShoulderSimulateOptions, mass: float) -> PersonNumbers:
-    return PersonNumbers(mass=mass, segments=body_segments(o.sex or "male"), gravity=np.array(MarkerSettings().gravity))
+    segments = person_segments(o.sex or "male", o.age, mass, o.height, {}, ("", ""))
+    return PersonNumbers(mass=mass, segments=segments, gravity=np.array(MarkerSettings().gravity))
 
 
 def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float) -> _Side:
