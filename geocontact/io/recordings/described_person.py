@@ -10,44 +10,47 @@ segments.upper_arm = { mass = { value = 0.9, unit = "kg" }, length = { value = 2
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from geocontact.data.body_segments import Sex
+from geocontact.data.body_segments import OWN_VALUES, SEGMENTS, Sex
 from geocontact.data.plausible import AGE, TALL, Plausible
 from geocontact.data.units import m
-from geocontact.io.documents import Document, Some, WithUnit
+from geocontact.io.documents import Document, WithUnit, refusal
 
 LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 Mass = Annotated[float, WithUnit("kg"), Field(gt=0.0)]
 Age = Annotated[float, WithUnit(AGE)]
-OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Annotated[float, WithUnit(LONG), Field(gt=0.0)])}
+Length = Annotated[float, WithUnit(LONG), Field(gt=0.0)]
+OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Length)}
+NAMES = tuple(SEGMENTS["male"])
 
 
-class OwnSegments(Document):
-    """Own values of segments in place of the table's, of one side.
+class OwnSegment(Document):
+    """Own values of one segment in place of the table's.
 
     Parameters
     ----------
-    head, trunk, upper_arm, forearm, hand, thigh, shank, foot
-        Mass; length; mass centre from the proximal end; radius of gyration about it, across the long axis.
+    mass
+        Mass, of one side.
+    length
+        Between the ends of de Leva's table.
+    centre
+        Mass centre from the proximal end.
+    gyration
+        Radius of gyration about the mass centre, across the long axis.
     """
 
-    head: Annotated[Mapping[str, float], Some(OWN)] = {}
-    trunk: Annotated[Mapping[str, float], Some(OWN)] = {}
-    upper_arm: Annotated[Mapping[str, float], Some(OWN)] = {}
-    forearm: Annotated[Mapping[str, float], Some(OWN)] = {}
-    hand: Annotated[Mapping[str, float], Some(OWN)] = {}
-    thigh: Annotated[Mapping[str, float], Some(OWN)] = {}
-    shank: Annotated[Mapping[str, float], Some(OWN)] = {}
-    foot: Annotated[Mapping[str, float], Some(OWN)] = {}
+    mass: Mass | None = None
+    length: Length | None = None
+    centre: Length | None = None
+    gyration: Length | None = None
 
     @property
-    def stated(self) -> dict[str, Mapping[str, float]]:
-        """Own values by segment, of those that have any."""
-        return {name: values for name in type(self).model_fields if (values := getattr(self, name))}
+    def stated(self) -> dict[str, float]:
+        """Values that are there."""
+        return {key: value for key in OWN_VALUES if (value := getattr(self, key)) is not None}
 
 
 class DescribedPerson(Document):
@@ -62,10 +65,22 @@ class DescribedPerson(Document):
     height
         Body height, which scales the table's lengths beside own values.
     segments
-        Own values of segments.
+        Own values by segment: head, trunk, upper_arm, forearm, hand, thigh, shank or foot.
     """
 
     sex: Sex = "male"
     age: Age | None = None
     height: Annotated[float, WithUnit(TALL)] | None = None
-    segments: OwnSegments = OwnSegments()
+    segments: dict[str, OwnSegment] = Field(default_factory=dict)
+
+    @property
+    def own(self) -> dict[str, dict[str, float]]:
+        """Own values by segment, of those that have any."""
+        return {name: values for name, each in self.segments.items() if (values := each.stated)}
+
+    @model_validator(mode="after")
+    def _require_segments(self) -> DescribedPerson:
+        odd = next((name for name in self.segments if name not in NAMES), None)
+        if odd is not None:
+            raise refusal(f"a body has no {odd[:80]}", f"it has {', '.join(NAMES)}", at=("segments", odd))
+        return self

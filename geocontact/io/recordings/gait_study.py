@@ -65,7 +65,7 @@ class GaitPerson(DescribedPerson):
     height
         Body height, which scales the table's lengths beside own values.
     segments
-        Own values of segments.
+        Own values by segment.
     residual
         Share of the shank that is left.
     residual_length

@@ -113,7 +113,7 @@ class StudyPerson(DescribedPerson):
     height
         Body height, which scales the table's lengths beside own values.
     segments
-        Own values of segments; `optimise` only, as `age`.
+        Own values by segment; `optimise` only, as `age`.
     dominant
         Side of the dominant hand.
     upper_arm

@@ -121,9 +121,7 @@ def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
     study = read_gait_study(file)
     add_input("study", file, trials=len(study.trials), persons=len(study.persons))
     bodies = {
-        name: person_segments(
-            each.sex, each.age, each.mass, each.height, each.segments.stated, (file, f"[persons.{name}]")
-        )
+        name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (file, f"[persons.{name}]"))
         for name, each in study.persons.items()
     }
     return [

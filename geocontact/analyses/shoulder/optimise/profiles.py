@@ -81,9 +81,7 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
         reserve("every trial was recorded in the device: the shoulder's torque is for arms that it supported")
     lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
     bodies = {
-        name: person_segments(
-            each.sex, each.age, each.mass, each.height, each.segments.stated, (o.study, f"[persons.{name}]")
-        )
+        name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (o.study, f"[persons.{name}]"))
         for name, each in study.persons.items()
     }
     arms = [
