@@ -36,7 +36,7 @@ def doubt_value(where: str, key: str, value: float, usual: float, length: float,
         share, (least, most), of = abs(value) / length, (0.0, WITHIN[key]), "times its length"
     if not least <= share <= most:
         what = f"{where}: its {key} is {share:.2g} {of}"
-        reserve(f"{what}: is it in its unit, of one leg, and of this person?", cause=True)
+        reserve(f"{what}: is it in its unit, of one side, and of this person?", cause=True)
 
 
 def doubt_age(at: tuple[Path | str, str], sex: Sex, age: float | None, mass: float, height: float | None) -> None:

@@ -171,7 +171,7 @@ FREE, HELD = "amputee.osim", "amputee_ik.osim"
 NOTE = (
     "Made by geocontact prosthesis scale. Springs of socket and keel are those of one fulcrum; the spheres of both "
     "soles have no force law here. Trunk, head and arms are one rigid body with the pelvis (masses and moments of "
-    "inertia: de Leva 1996), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
+    "inertia: {segments}), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
     "so that moments on pelvis and hips leave out what a trunk does by itself."
 )
 
@@ -239,8 +239,9 @@ class ProsthesisScaleResult(Result):
         """Both models for OpenSim besides."""
         end = f"_{self.options.side[0]}"
         springs = {f"{name}{end}": pair for name, pair in self.amputee.springs().items()}
-        write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=NOTE)
-        write_osim(folder / HELD, self.held, note=NOTE)
+        note = NOTE.format(segments=self.amputee.prosthetic.person.segments.source)
+        write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=note)
+        write_osim(folder / HELD, self.held, note=note)
         super().write_files(folder)
 
     def _balls(self) -> list[ContactBall]:

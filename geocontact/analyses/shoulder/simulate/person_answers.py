@@ -197,6 +197,8 @@ def _of_trunk(
     needs = back_needs(trunk, [each.needs for each in sides], **given)
     devices = [each.device for each in sides]
     back = {WITHOUT: extending_torque(trunk, needs), MOTION: extending_torque(trunk, needs, devices)}
+    if given["segments"].age is not None and o.height is None:
+        reserve("the sway of a child is that of an adult's height; give `height`")
     height = o.height or given["segments"].stature
     try:
         person = InvertedPendulum(mass, height, STIFFNESS if o.ankle_stiffness is None else o.ankle_stiffness)
