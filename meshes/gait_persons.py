@@ -9,7 +9,7 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.leg import Leg, Person, Side
-from geocontact.data.body_segments import Sex
+from geocontact.data.body_segments import Sex, body_segments
 
 STANCE = {"low": 0.68, "medium": 0.72, "high": 0.71}
 """s; means of the study by setting, sec. 4."""
@@ -58,7 +58,9 @@ def true_leg(person: Walker, below: float) -> Leg:
     turn = Rotation.from_euler("y", -TOE_OUT)
     ankle = np.array([0.0, -long, 0.0])
     keel = ankle + turn.apply([-HEEL, below - high, 0.0])
-    return Leg(Person(person.mass, person.sex), HIP, THIGH * person.stature, ankle, KNEE_RADIUS, keel, turn)
+    return Leg(
+        Person(person.mass, body_segments(person.sex)), HIP, THIGH * person.stature, ankle, KNEE_RADIUS, keel, turn
+    )
 
 
 def marker_places(leg: Leg, keel_length: float) -> dict[str, dict[str, Float[np.ndarray, " 3"]]]:

@@ -34,6 +34,7 @@ from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.below_knee_prosthesis.leg_tree import LegMotion
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket, limb_in_socket
 from geocontact.below_knee_prosthesis.simulate import Push, Stance, simulate_stance
+from geocontact.data.body_segments import body_segments
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.agreement import agreement
 from meshes.gait_persons import PARTICIPANTS, Walker
@@ -63,7 +64,7 @@ class Recorded:
 def recorded(trial: GaitTrial, foot: VariableStiffnessFoot) -> Recorded:
     """Of a right leg."""
     p = trial.person
-    person = Person(p.mass, p.sex)
+    person = Person(p.mass, body_segments(p.sex))
     below = sole_numbers()["below"].value
     leg = standing_leg(as_right(trial.standing, p.side), person, foot.keel, below)
     seen = as_right(trial.walking, p.side)

@@ -50,6 +50,7 @@ from geocontact.below_knee_prosthesis.keel.sole import numbers as sole_numbers
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.below_knee_prosthesis.leg import Leg, Person
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, recorded_tree
+from geocontact.data.body_segments import body_segments
 from geocontact.data.multibody.markers import MarkerTrajectories
 from meshes.gait_course import course, reactions
 from meshes.gait_persons import Walker, marker_places, true_leg
@@ -187,7 +188,7 @@ def _recorded(
         MarkerTrajectories(still[0], still[1], STANDING, "synthetic standing"),
         MarkerTrajectories(time_, seen, STANDING, "synthetic walking"),
         PlateStance(time_, load, centre),
-        Person(person.mass, person.sex),
+        Person(person.mass, body_segments(person.sex)),
         vsf_foot().keel,
         fulcrum,
         sole_numbers()["below"].value,

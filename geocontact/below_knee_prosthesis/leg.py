@@ -18,7 +18,7 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.body_segments import LEVA, BodySegments, body_segments
 from geocontact.data.multibody.model import Marker
 from geocontact.data.parameter import Number, Source
 
@@ -145,6 +145,9 @@ SOCKET_RADIUS, FOOT_SIZE = 0.055, (0.24, 0.06, 0.08)
 """m; of the socket as a hollow cylinder, and of the foot shell as a box; invented."""
 
 
+MAN = body_segments("male")
+
+
 @dataclass(frozen=True)
 class Person:
     """Who walks.
@@ -153,8 +156,8 @@ class Person:
     ----------
     mass
         Of the body with the prosthesis [kg].
-    sex
-        Row of de Leva's table.
+    segments
+        Segments of the body as it is without the prosthesis.
     residual
         Share of the shank's length that is left [-].
     prosthesis
@@ -162,7 +165,7 @@ class Person:
     """
 
     mass: float
-    sex: Sex = "male"
+    segments: BodySegments = MAN
     residual: float = RESIDUAL
     prosthesis: float = SOCKET + PYLON + FOOT
 
@@ -250,8 +253,8 @@ class Leg:
         return np.asarray(self.turn.inv().apply(self.keel - self.bushing))
 
     def thigh_body(self) -> Inertial:
-        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
-        of = SEGMENTS[self.person.sex]["thigh"]
+        """Body of the thigh in its frame, by the segment's shares of mass and length."""
+        of = self.person.segments["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
         return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
@@ -259,10 +262,10 @@ class Leg:
     def residual_body(self) -> Inertial:
         """Body of the residual limb in the shank's frame: a frustum cut off, of the density of the whole shank.
 
-        Whole it has de Leva's mass, and his mass centre tells its taper: the limb weighs the same whatever else is
+        Whole it has the segment's mass, and its mass centre gives the taper: the limb weighs the same whatever else is
         known of the person.
         """
-        of = SEGMENTS[self.person.sex]["shank"]
+        of = self.person.segments["shank"]
         whole = Frustum(self.shank, self.knee_radius, taper(of.centre) * self.knee_radius)
         density = of.mass * self.person.mass / whole.volume
         return whole.cut(self.person.residual * self.shank).body(density)
@@ -289,7 +292,10 @@ class Leg:
 
     def numbers(self) -> Mapping[str, Number]:
         """Every number of the segments in SI, and where it is from: what a simulation takes of this leg."""
-        leva = "de Leva 1996, of the body's mass; the study takes the same table"
+        masses, shapes = self.person.segments.source, self.person.segments.shape_source
+        has = f"{shapes.removesuffix(' 1996')} has it"
+        same = "; the study takes the same table" if masses == LEVA else ""
+        whole = "de Leva's mass" if masses == LEVA else f"the mass by {masses}"
         measured = "from the markers of the standing trial"
         weighed = self.person.prosthesis != SOCKET + PYLON + FOOT
         source: Source = "derived" if weighed else "invented"
@@ -306,15 +312,15 @@ class Leg:
             **_places("keel", self.keel, f"origin of the keel's frame K in the shank's, {measured}"),
             **_places("turn", self.turn.as_rotvec(), f"of K in the shank's frame as a rotation vector, {measured}"),
             **_offset(self.offset),
-            "thigh_mass": Number(thigh[0], "derived", leva),
-            "thigh_centre": Number(float(-thigh[1][1]), "derived", "of its mass, below the hip; de Leva 1996"),
+            "thigh_mass": Number(thigh[0], "derived", f"{masses}, of the body's mass{same}"),
+            "thigh_centre": Number(float(-thigh[1][1]), "derived", f"of its mass, below the hip; {shapes}"),
             "residual_share": _share(self.person.residual),
             "ankle_over_knee_radius": Number(
-                taper(SEGMENTS[self.person.sex]["shank"].centre),
+                taper(self.person.segments["shank"].centre),
                 "derived",
-                "of the frustum of a whole shank, which puts its mass centre where de Leva has it",
+                f"of the frustum of a whole shank, which puts its mass centre where {has}",
             ),
-            "residual_mass": Number(residual[0], "derived", "that frustum cut off, with de Leva's mass"),
+            "residual_mass": Number(residual[0], "derived", f"that frustum cut off, with {whole}"),
             "residual_centre": Number(float(-residual[1][1]), "derived", "of its mass, below the knee"),
             "socket_mass": Number(socket, source, f"with liner{shared}"),
             "pylon_mass": Number(pylon, source, f"with adapters{shared}"),

@@ -26,6 +26,7 @@ KG_M, KG_M2 = Unit("kg m", "kg m", 1.0), Unit("kg m^2", "kg m^2", 1.0)
 N_MM_S = Unit("N mm s/rad", "N m s/rad", 1e-3)
 J_PER_M2 = Unit("J/m^2", "J/m^2", 1.0)
 KHZ, G, TONNE = Unit("kHz", "Hz", 1e3), Unit("g", "kg", 1e-3), Unit("t", "kg", 1e3)
+YEARS = Unit("years", "years", 1.0)
 OF_SI = (N, HZ, S, KG, RAD, PA, M_PER_S, N_PER_M, N_S_PER_M, J_PER_M2, PLAIN)
 KNOWN: tuple[Unit, ...] = (*UNITS, *OF_SI, N_PER_MM, N_S_PER_MM, N_M, N_MM, N_MM_S, AMPERE, MILLIAMPERE, KHZ, G, TONNE)
 """Units that a number may have been meant in."""
@@ -219,6 +220,7 @@ SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
 TALL = Plausible("the height of a person", m, (0.8, 2.5), (0.8, 1.97), why="999 of 1000 men, ANSUR II")
+AGE = Plausible("the age of a person whose segments are known", YEARS, (6.0, 110.0))
 
 DEVICE = "hinges and parts of worn devices"
 VISCOUS = Plausible("the viscous friction of a hinge of a device", N_M_S, (0.0, 500.0), (0.01, 50.0), why=DEVICE)

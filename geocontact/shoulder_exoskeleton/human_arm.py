@@ -1,7 +1,7 @@
 """The human arm: joints from markers, weight, loads of the hands, and the torque with which the shoulder raises it.
 
-Shares of mass and mass centres are de Leva's; forearm and hand are as long beside the upper arm as those of his mean
-person.
+Shares of mass and mass centres are those of the person's segments (`data.body_segments`), whose forearm and hand are as
+long beside the upper arm.
 
 Segments are rigid and symmetric about their long axes, whose spin two markers do not show; the moment of inertia across
 is the mean of de Leva's sagittal and transverse ones. With u the direction of a segment, its angular momentum about the
@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.interpolate import make_interp_spline
 
-from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.identify.signals.filters import zero_lag
@@ -37,20 +37,22 @@ CHAIN = ("upper_arm", "forearm", "hand")
 """From the shoulder outwards."""
 
 
-def arm_moment(mass: float, sex: Sex, upper_arm: float) -> float:
+def arm_moment(mass: float, segments: BodySegments, upper_arm: float) -> float:
     """About the shoulder, of the arm stretched out level [N m].
 
     Parameters
     ----------
     mass
         Of the whole body [kg].
+    segments
+        Segments of the person.
     upper_arm
         Shoulder to elbow [m].
     """
-    size = upper_arm / SEGMENTS[sex][CHAIN[0]].length
+    size = upper_arm / segments[CHAIN[0]].length
     moment, start = 0.0, 0.0
     for name in CHAIN:
-        segment = SEGMENTS[sex][name]
+        segment = segments[name]
         moment += segment.mass * mass * GRAVITY * size * (start + segment.centre * segment.length)
         start += segment.length
     return moment
@@ -228,7 +230,7 @@ def elevation_torque(
     load: HandLoad,
     *,
     mass: float,
-    sex: Sex,
+    segments: BodySegments,
     gravity: Float[np.ndarray, " 3"],
     cutoff: float | None = CUTOFF,
 ) -> ElevationTorque:
@@ -238,6 +240,8 @@ def elevation_torque(
     ----------
     mass
         Of the whole body [kg]; lengths of the segments are those between the joints, in the mean over the track.
+    segments
+        Segments of the person, whose shares of mass and of these lengths count.
     gravity
         In the track's frame [m/s²].
     cutoff
@@ -252,7 +256,7 @@ def elevation_torque(
     }
     weight, motion = np.zeros_like(axis), np.zeros_like(axis)
     for name, (near, far) in ends.items():
-        segment = SEGMENTS[sex][name]
+        segment = segments[name]
         own = segment.mass * mass
         along = far - near
         length = float(np.linalg.norm(along, axis=1).mean())

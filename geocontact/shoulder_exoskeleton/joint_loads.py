@@ -1,6 +1,6 @@
 """What shoulder, elbow and lower back of a person at overhead work carry, with and without an exoskeleton.
 
-Newton's and Euler's equations over de Leva's segments (`human_arm`), in the laboratory's inertial frame: a joint
+Newton's and Euler's equations over the body's segments (`human_arm`), in the laboratory's inertial frame: a joint
 provides the force and moment that accelerate and carry everything beyond it. The cuff carries a part of the upper arm,
 so that the shoulder provides less; the trunk carries the cuff's reaction and the device's weight and inertia. In the
 lower back the cuffs' forces cancel: what remains of the device there is its weight and inertia.
@@ -18,7 +18,7 @@ from typing import TypedDict
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.body_segments import BodySegments
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.human_arm import VANISHING, ArmTrack, HandLoad, second_derivative
 
@@ -28,10 +28,10 @@ HEAD = 0.40
 
 
 class PersonNumbers(TypedDict):
-    """Mass of the body [kg], sex for the table of segments, and gravity in the laboratory [m/s²]."""
+    """Mass of the body [kg], its segments, and gravity in the laboratory [m/s²]."""
 
     mass: float
-    sex: Sex
+    segments: BodySegments
     gravity: Float[np.ndarray, " 3"]
 
 
@@ -64,7 +64,7 @@ def needed_by(
     segment: str,
     *,
     mass: float,
-    sex: Sex,
+    segments: BodySegments,
     gravity: Float[np.ndarray, " 3"],
 ) -> Load:
     """What carries and accelerates one segment, at its mass centre: m (a - g), and I u x u''.
@@ -75,9 +75,11 @@ def needed_by(
         Proximal and distal end [m].
     mass
         Of the whole body [kg].
+    segments
+        Its segments.
     """
     near, far = ends
-    own = SEGMENTS[sex][segment]
+    own = segments[segment]
     size = own.mass * mass
     along = far - near
     length = np.linalg.norm(along, axis=1, keepdims=True)
@@ -98,7 +100,9 @@ class ArmNeeds:
     elbow: Load
 
 
-def arm_needs(track: ArmTrack, hand: HandLoad, *, mass: float, sex: Sex, gravity: Float[np.ndarray, " 3"]) -> ArmNeeds:
+def arm_needs(
+    track: ArmTrack, hand: HandLoad, *, mass: float, segments: BodySegments, gravity: Float[np.ndarray, " 3"]
+) -> ArmNeeds:
     """Needs of an arm with its hand's load; arguments as those of `elevation_torque`."""
     joints = {
         "upper_arm": (track.shoulder, track.elbow),
@@ -106,7 +110,8 @@ def arm_needs(track: ArmTrack, hand: HandLoad, *, mass: float, sex: Sex, gravity
         "hand": (track.wrist, track.hand),
     }
     upper, fore, palm = (
-        needed_by(track.time, ends, name, mass=mass, sex=sex, gravity=gravity) for name, ends in joints.items()
+        needed_by(track.time, ends, name, mass=mass, segments=segments, gravity=gravity)
+        for name, ends in joints.items()
     )
     carried = hand.mass * (second_derivative(track.time, track.hand) - gravity)
     grip = Load(np.asarray(carried + hand.force), track.hand, np.zeros_like(track.hand))
@@ -149,12 +154,12 @@ def trunk_of(tracks: Sequence[ArmTrack], frame: DeviceFrame, length: float) -> T
 
 
 def back_needs(
-    trunk: Trunk, arms: Sequence[ArmNeeds], *, mass: float, sex: Sex, gravity: Float[np.ndarray, " 3"]
+    trunk: Trunk, arms: Sequence[ArmNeeds], *, mass: float, segments: BodySegments, gravity: Float[np.ndarray, " 3"]
 ) -> Load:
     """What the pelvis provides at the hips' height for trunk, head and both arms, without any device."""
-    torso = needed_by(trunk.time, (trunk.shoulders, trunk.hips), "trunk", mass=mass, sex=sex, gravity=gravity)
+    torso = needed_by(trunk.time, (trunk.shoulders, trunk.hips), "trunk", mass=mass, segments=segments, gravity=gravity)
     place = trunk.shoulders + HEAD * (trunk.shoulders - trunk.hips)
-    size = SEGMENTS[sex]["head"].mass * mass
+    size = segments["head"].mass * mass
     head = Load(size * (second_derivative(trunk.time, place) - gravity), place, np.zeros_like(place))
     return added((torso, head, *(each.shoulder for each in arms)), trunk.hips)
 

@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import Rotation
 
-from geocontact.data.body_segments import Sex
+from geocontact.data.body_segments import Sex, body_segments
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings
@@ -374,7 +374,7 @@ def arms_of(trial: OverheadTrial, dominant_share: float = 1.0, cutoff: float = C
     work = ToolWork(task.tool, task.push * person.push, dominant_share=dominant_share)
     use = ToolUse(work, trial.phase == SCREW, trial.current)
     lengths = Wearer(upper_arm=person.upper_arm, shoulder_width=person.shoulders)
-    worker = Worker(person.name, person.mass, person.sex, person.dominant, lengths)
+    worker = Worker(person.name, person.mass, body_segments(person.sex), person.dominant, lengths)
     arms, _ = recorded_arms(trial.name, worker, task.name, trial.markers, MarkerSettings(upright=UPRIGHT), use, cutoff)
     return arms
 

@@ -25,7 +25,7 @@ from jaxtyping import Float
 from scipy.integrate import solve_ivp
 from scipy.interpolate import make_interp_spline
 
-from geocontact.data.body_segments import SEGMENTS, Sex
+from geocontact.data.body_segments import BodySegments
 from geocontact.dynamics.simulate import SimulatedMotion
 from geocontact.shoulder_exoskeleton.arm_model import ArmModel, arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_numbers import SIZES, adjusted_numbers, slices
@@ -113,7 +113,7 @@ def arm_beyond_cuff(
     frame: DeviceFrame,
     *,
     mass: float,
-    sex: Sex,
+    segments: BodySegments,
     gravity: Float[np.ndarray, " 3"],
 ) -> ArmBeyondCuff:
     """Numbers of a recorded arm; arguments as those of `arm_needs`, at the times of the simulation."""
@@ -129,7 +129,7 @@ def arm_beyond_cuff(
         return np.asarray(np.sum(arm**2, axis=1) - np.einsum("ti,ti->t", arm, axis) ** 2)
 
     for name, (near, far) in ends.items():
-        own = SEGMENTS[sex][name]
+        own = segments[name]
         along = far - near
         length = np.linalg.norm(along, axis=1)
         arm = near + own.centre * along - track.shoulder
@@ -194,7 +194,7 @@ def torque_kept(
     frame: DeviceFrame,
     *,
     mass: float,
-    sex: Sex,
+    segments: BodySegments,
     gravity: Float[np.ndarray, " 3"],
     factor: Float[np.ndarray, " t"] | None = None,
 ) -> TorqueKept:
@@ -212,10 +212,10 @@ def torque_kept(
     """
     if simulation.cuff != "point":
         raise ValueError("the torque is kept in a cuff that holds at a point")
-    given = PersonNumbers(mass=mass, sex=sex, gravity=gravity)
-    body = arm_beyond_cuff(track, hand, simulation, frame, mass=mass, sex=sex, gravity=gravity)
+    given = PersonNumbers(mass=mass, segments=segments, gravity=gravity)
+    arm = arm_beyond_cuff(track, hand, simulation, frame, mass=mass, segments=segments, gravity=gravity)
     time = simulation.motion.time
-    run = _Coupled(simulation, body, np.ones(len(time)) if factor is None else factor)
+    run = _Coupled(simulation, arm, np.ones(len(time)) if factor is None else factor)
     found = run.stepped()
     count = len(found)
     if count < FEWEST:

@@ -52,6 +52,8 @@ class Subject:
         Row of de Leva's table.
     own
         The person's own values of segments, as `person_segments.segments_of` takes them.
+    age
+        Of a child [years].
     """
 
     mass: float = 70.0
@@ -59,11 +61,12 @@ class Subject:
     device: WornDevice = SHIPPED_DEVICE
     sex: Sex = "male"
     own: Mapping[str, Mapping[str, float]] = field(default_factory=dict, hash=False)
+    age: float | None = None
 
     @property
     def segments(self) -> dict[str, PersonSegment]:
         """Foot, shank, thigh and trunk in kg and m, masses of both sides."""
-        return segments_of(self.mass, self.height, self.sex, self.own)
+        return segments_of(self.mass, self.height, self.sex, self.own, self.age)
 
 
 def leg_chain(subject: Subject) -> Multibody:

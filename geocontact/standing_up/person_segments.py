@@ -5,15 +5,17 @@ Zatsiorsky-Seluyanov's segment inertia parameters, J Biomech 29, 1223-1230); sha
 whose row the women's are. Head, arms and trunk are one rigid body over the hips, as long as from these to the seventh
 cervical vertebra, rounded from that table with the arms hanging from 0.818 of the stature (Drillis & Contini 1966). In
 men its radius of gyration is 0.44 of that length, where the table gives 0.37, and the shank has the fractions to the
-malleolus, 2.8 mm nearer to the ankle: shipped trials were made with both. Children need their own values.
+malleolus, 2.8 mm nearer to the ankle: shipped trials were made with both. Children have the masses of
+`data.body_segments`, whose heavier head moves the mass centre of what is over the hips.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from geocontact.data.body_segments import Sex
+from geocontact.data.body_segments import ADULT, BodySegments, Sex, body_segments
 
 LEG = ("foot", "shank", "thigh")
 """Segments of which there are two."""
@@ -51,8 +53,43 @@ SHARES: dict[Sex, dict[str, PersonSegment]] = {
 }
 
 
+SHOULDERS, ANKLES = 0.818, 0.039
+"""Heights over the stature (Drillis & Contini 1966)."""
+ARM = ("upper_arm", "forearm", "hand")
+
+
+def shares_of(sex: Sex, age: float | None) -> dict[str, PersonSegment]:
+    """Fractions of an adult of that sex, or of a child of that age [years]; ValueError below 6 years."""
+    table = SHARES[sex]
+    if age is None or age >= ADULT:
+        return table
+    body = body_segments(sex, age)
+    found = {name: replace(table[name], mass=2.0 * body[name].mass) for name in LEG}
+    centre, gyration = _over_hips(body, table)
+    mass = 1.0 - sum(each.mass for each in found.values())
+    return found | {"trunk": replace(table["trunk"], mass=mass, centre=centre, gyration=gyration)}
+
+
+def _over_hips(body: BodySegments, table: Mapping[str, PersonSegment]) -> tuple[float, float]:
+    """Mass centre above the hips and radius of gyration of trunk, head and hanging arms, over the trunk's length."""
+    tall = body.stature
+    hips = tall * (table["thigh"].length + table["shank"].length + ANKLES)
+    tops = {"trunk": body["trunk"].length, "head": tall - hips}
+    below = SHOULDERS * tall - hips
+    for name in ARM:
+        tops[name] = below
+        below -= body[name].length
+    mass = {name: (2.0 if name in ARM else 1.0) * body[name].mass for name in tops}
+    place = {name: top - body[name].centre * body[name].length for name, top in tops.items()}
+    whole = sum(mass.values())
+    centre = sum(mass[name] * place[name] for name in tops) / whole
+    own = {name: (body[name].radii[1] * body[name].length) ** 2 + (place[name] - centre) ** 2 for name in tops}
+    length = tall * table["trunk"].length
+    return centre / length, math.sqrt(sum(mass[name] * own[name] for name in tops) / whole) / length
+
+
 def segments_of(
-    mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[str, float]]
+    mass: float, height: float, sex: Sex, own: Mapping[str, Mapping[str, float]], age: float | None = None
 ) -> dict[str, PersonSegment]:
     """Segments of a person in kg and m.
 
@@ -63,9 +100,11 @@ def segments_of(
     own
         The person's own `VALUES` by segment, masses of one leg; the rest is the table's, centre and radius in
         proportion to the length, and the trunk has what the legs leave of the mass.
+    age
+        Of a child [years].
     """
     found: dict[str, PersonSegment] = {}
-    for name, share in SHARES[sex].items():
+    for name, share in shares_of(sex, age).items():
         given, sides = own.get(name, {}), 2.0 if name in LEG else 1.0
         length = given.get("length", share.length * height)
         heavy = sides * given["mass"] if "mass" in given else share.mass * mass

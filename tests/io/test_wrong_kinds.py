@@ -201,7 +201,7 @@ thigh = "t02_thigh"
         read_standing_study,
         """mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
 height = { value = 1.75, unit = "m" }
-person = { sex = "female", foot = { gyration = { value = 5, unit = "cm" } } }
+person = { sex = "female", age = { value = 9, unit = "years" }, foot = { gyration = { value = 5, unit = "cm" } } }
 exoskeleton = true
 device = "a.csv"
 free = ["a"]
@@ -417,6 +417,10 @@ mass = { value = 77.3, unit = "kg" }
 static = "a.csv"
 side = "right"
 sex = "male"
+age = { value = 9, unit = "years" }
+height = { value = 1.36, unit = "m" }
+segments.thigh = { mass = { value = 3, unit = "kg" }, length = { value = 32, unit = "cm" } }
+segments.shank = { centre = { value = 13, unit = "cm" }, gyration = { value = 9, unit = "cm" } }
 residual = { value = 45, unit = "%" }
 residual_length = { value = 150, unit = "mm" }
 residual_markers = "RKNE,RSO3"
@@ -458,6 +462,10 @@ dominant_share = 0.5
 [persons.P1]
 mass = { value = 82, unit = "kg" }
 sex = "male"
+age = { value = 9, unit = "years" }
+height = { value = 1.36, unit = "m" }
+segments.upper_arm = { mass = { value = 0.9, unit = "kg" }, length = { value = 25, unit = "cm" } }
+segments.head = { centre = { value = 13, unit = "cm" }, gyration = { value = 9, unit = "cm" } }
 dominant = "right"
 upper_arm = { value = 296, unit = "mm" }
 shoulder_width = { value = 390, unit = "mm" }

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.data.body_segments import SEGMENTS
+from geocontact.data.body_segments import SEGMENTS, body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.joint import free, gimbal, weld
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -47,7 +47,7 @@ def empty(frames: int = FRAMES) -> HandLoad:
 
 
 def torque(track: ArmTrack, load: HandLoad, cutoff: float | None = None) -> np.ndarray:
-    return elevation_torque(track, load, mass=80.0, sex="male", gravity=G, cutoff=cutoff).total
+    return elevation_torque(track, load, mass=80.0, segments=body_segments("male"), gravity=G, cutoff=cutoff).total
 
 
 @pytest.mark.parametrize("elevation", [0.2, 0.8, np.pi / 2, 2.2])
@@ -131,7 +131,7 @@ def of_trial(trial: OverheadTrial, side: str, work: ToolWork, turn: Rotation | N
     frame = arm_motions(markers, MarkerSettings(gravity=tuple(gravity), upright=(0.0, 0.25))).frame
     track = arm_track(markers, frame, "left" if side == "left" else "right")
     load = hand_load(work, track.side, trial.participant.dominant, trial.phase == 2)
-    return elevation_torque(track, load, mass=61.0, sex="female", gravity=gravity).total
+    return elevation_torque(track, load, mass=61.0, segments=body_segments("female"), gravity=gravity).total
 
 
 def test_the_laboratory_does_not_matter(trial: OverheadTrial) -> None:
@@ -174,3 +174,37 @@ def test_what_is_missing_is_named(trial: OverheadTrial) -> None:
         ToolWork(1.0, 10.0, dominant_share=1.2)
     with pytest.raises(ValueError, match="must not be negative"):
         ToolWork(-1.0, 10.0)
+
+
+def test_own_values_of_the_arm_need_their_own_torque() -> None:
+    """A straight arm that swings in a plane: weights at levers, and (k² + r²) m of each segment times its turning."""
+    own = {
+        "upper_arm": {"mass": 3.0, "length": 0.3, "centre": 0.11, "gyration": 0.12},
+        "forearm": {"mass": 1.7, "length": 0.27, "centre": 0.1, "gyration": 0.06},
+        "hand": {"mass": 0.9, "length": 0.09, "centre": 0.05, "gyration": 0.03},
+    }
+    body = body_segments("male", mass=80.0, own=own)
+    time = np.arange(301) / 100.0
+    angle, turning = 1.2 + 0.4 * np.sin(3.0 * time), -0.4 * 9.0 * np.sin(3.0 * time)
+    unit = np.column_stack([np.sin(angle), -np.cos(angle), np.zeros_like(angle)])
+    reach = np.cumsum([0.0, *LENGTHS])
+    places = [np.array([0.2, 1.4, 0.1]) + far * unit for far in reach]
+    track = ArmTrack("right", time, *places, down=np.tile(DOWN, (len(time), 1)))
+    needed = elevation_torque(track, empty(len(time)), mass=80.0, segments=body, gravity=G, cutoff=None)
+    levers = [near + values["centre"] for near, values in zip(reach[:-1], own.values(), strict=True)]
+    masses, radii = ([values[key] for values in own.values()] for key in ("mass", "gyration"))
+    weight = 9.80665 * np.dot(masses, levers) * np.sin(angle)
+    motion = np.dot(masses, np.square(radii) + np.square(levers)) * turning
+    inner = slice(10, -10)  # splines are poor at their ends
+    np.testing.assert_allclose(needed.weight[inner], weight[inner], rtol=1e-10)
+    np.testing.assert_allclose(needed.motion[inner], motion[inner], atol=2e-6 * np.abs(motion).max())
+    assert (
+        np.abs(
+            needed.weight
+            / elevation_torque(
+                track, empty(len(time)), mass=80.0, segments=body_segments("male"), gravity=G, cutoff=None
+            ).weight
+            - 1.0
+        ).min()
+        > 0.05
+    )

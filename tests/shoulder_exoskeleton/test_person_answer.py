@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from geocontact.data.body_segments import body_segments
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
 from geocontact.shoulder_exoskeleton.device import Wearer, lucy
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
@@ -57,7 +58,7 @@ def test_a_swinging_arm_needs_what_a_pendulum_needs() -> None:
     track = straight(time, angle)
     first, second = pendulum(1.3)
     hand = HandLoad(1.3, np.tile([0.0, 0.0, 20.0], (len(time), 1)))
-    found = raising_torque(track, arm_needs(track, hand, mass=MASS, sex=SEX, gravity=DOWN))
+    found = raising_torque(track, arm_needs(track, hand, mass=MASS, segments=body_segments(SEX), gravity=DOWN))
     reach = sum(LENGTHS.values())
     np.testing.assert_allclose(found, second * bend + (first * 9.81 + 20.0 * reach) * np.sin(angle), atol=2e-3)
 
@@ -68,7 +69,7 @@ def test_a_cuff_takes_its_moment_from_the_shoulder_and_nothing_from_the_elbow() 
     track = straight(time, still)
     up = np.array([0.0, 0.0, 1.0])
     bent = replace(track, wrist=track.elbow + 0.26 * up, hand=track.elbow + 0.34 * up)
-    needs = arm_needs(bent, HandLoad(0.0, np.zeros((51, 3))), mass=MASS, sex=SEX, gravity=DOWN)
+    needs = arm_needs(bent, HandLoad(0.0, np.zeros((51, 3))), mass=MASS, segments=body_segments(SEX), gravity=DOWN)
     assert bending_torque(bent, needs) == pytest.approx(np.zeros(51), abs=1e-9)  # straight above the elbow
     across = np.tile([0.0, -np.cos(1.0), np.sin(1.0)], (51, 1))
     cuff = Load(30.0 * across, track.shoulder + 0.2 * (track.elbow - track.shoulder) / 0.29, np.zeros((51, 3)))
@@ -82,7 +83,7 @@ def test_a_level_forearm_bends_its_elbow_with_its_weight() -> None:
     level = np.array([0.0, -1.0, 0.0])
     wrist = track.elbow + 0.26 * level
     bent = replace(track, wrist=wrist, hand=wrist + 0.08 * level)
-    needs = arm_needs(bent, HandLoad(2.0, np.zeros((51, 3))), mass=MASS, sex=SEX, gravity=DOWN)
+    needs = arm_needs(bent, HandLoad(2.0, np.zeros((51, 3))), mass=MASS, segments=body_segments(SEX), gravity=DOWN)
     weight = MASS * (0.0162 * 0.4574 * 0.26 + 0.0061 * (0.26 + 0.79 * 0.08)) + 2.0 * 0.34
     np.testing.assert_allclose(bending_torque(bent, needs), 9.81 * weight, atol=1e-9)
 
@@ -99,7 +100,7 @@ def kept(side: Side = "right", level: float = 0.3) -> tuple[ArmSimulation, ArmTr
     s = simulate_arm(motion, lucy(), Wearer(upper_arm=0.27), level)
     frame = DeviceFrame(np.zeros((151, 3)), np.tile(np.eye(3), (151, 1, 1)))
     hand = HandLoad(0.8, np.tile([0.0, 0.0, 5.0], (151, 1)))
-    found = torque_kept(track, hand, s, frame, mass=MASS, sex=SEX, gravity=DOWN)
+    found = torque_kept(track, hand, s, frame, mass=MASS, segments=body_segments(SEX), gravity=DOWN)
     return s, track, found
 
 
@@ -145,7 +146,9 @@ def test_only_a_point_keeps_the_torque() -> None:
     frame = DeviceFrame(np.zeros((151, 3)), np.tile(np.eye(3), (151, 1, 1)))
     other = replace(s, cuff="surface")
     with pytest.raises(ValueError, match="a cuff that holds at a point"):
-        torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), other, frame, mass=MASS, sex=SEX, gravity=DOWN)
+        torque_kept(
+            track, HandLoad(0.0, np.zeros((151, 3))), other, frame, mass=MASS, segments=body_segments(SEX), gravity=DOWN
+        )
 
 
 def test_an_arm_that_leaves_its_range_at_once_keeps_no_torque(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -154,7 +157,9 @@ def test_an_arm_that_leaves_its_range_at_once_keeps_no_torque(monkeypatch: pytes
     monkeypatch.setattr("geocontact.shoulder_exoskeleton.torque_kept.HIGHEST", float(s.motion.elevation[3]))
     frame = DeviceFrame(np.zeros((151, 3)), np.tile(np.eye(3), (151, 1, 1)))
     with pytest.raises(LeavesAtOnceError, match=r"leaves its range after [1-5] frames"):
-        torque_kept(track, HandLoad(0.0, np.zeros((151, 3))), s, frame, mass=MASS, sex=SEX, gravity=DOWN)
+        torque_kept(
+            track, HandLoad(0.0, np.zeros((151, 3))), s, frame, mass=MASS, segments=body_segments(SEX), gravity=DOWN
+        )
 
 
 def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:

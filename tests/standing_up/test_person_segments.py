@@ -119,3 +119,47 @@ def test_a_person_with_own_segments_can_be_looked_up() -> None:
     """Equations of a person are kept, by the person: others with the same mass and height are others."""
     one, other = (Subject(50.0, 1.6, own=own) for own in (OWN, {}))
     assert len({one: 1, other: 2, Subject(50.0, 1.6, own=dict(OWN)): 3}) == 2
+
+
+JENSEN = {"head": 14.15, "trunk": 42.35, "upper_arm": 2.8, "forearm": 1.5, "hand": 0.85, "thigh": 9.75, "shank": 4.95}
+"""Half-way between the printed percentages at 6 and 12 years, both of which sum up to 100.2."""
+
+
+def test_a_child_of_9_years_by_hand() -> None:
+    """Legs by the shares of boys; a head of 14 % moves the mass centre over the hips up by 7 % of the trunk."""
+    share = {name: value / 100.2 for name, value in JENSEN.items()}
+    child = Subject(30.0, 1.35, age=9.0).segments
+    assert child["thigh"].mass == pytest.approx(2 * 30.0 * share["thigh"], rel=1e-12)
+    assert child["shank"].mass == pytest.approx(2 * 30.0 * share["shank"], rel=1e-12)
+    assert sum(each.mass for each in child.values()) == pytest.approx(30.0, rel=1e-12)
+    table, tall = SEGMENTS["male"], STATURE["male"]
+    hips = tall * (0.2425 + 0.2529 + 0.039)
+    at = {"trunk": (1.0 - 0.4486) * 0.5319, "head": tall - hips - 0.5976 * 0.2033}
+    arm = 0.818 * tall - hips
+    at |= {
+        "upper_arm": arm - 0.5772 * 0.2817,
+        "forearm": arm - 0.2817 - 0.4574 * 0.2689,
+        "hand": arm - 0.2817 - 0.2689 - 0.79 * 0.0862,
+    }
+    mass = {name: (1 if name in ("trunk", "head") else 2) * share[name] for name in at}
+    whole = sum(mass.values())
+    centre = sum(mass[name] * at[name] for name in at) / whole
+    turning = sum(mass[n] * ((table[n].radii[1] * table[n].length) ** 2 + (at[n] - centre) ** 2) for n in at) / whole
+    long = 0.3465 * tall
+    assert child["trunk"].centre / child["trunk"].length == pytest.approx(centre / long, rel=1e-12)
+    assert child["trunk"].gyration / child["trunk"].length == pytest.approx(np.sqrt(turning) / long, rel=1e-12)
+    assert centre / long - SHARES["male"]["trunk"].centre == pytest.approx(0.07, abs=0.01)
+    assert Subject(30.0, 1.35, age=30.0).segments == Subject(30.0, 1.35).segments
+
+
+def test_a_study_of_a_child_says_what_its_masses_are(tmp_path: Path) -> None:
+    text = '[person]\nsex = "female"\nage = { value = 12, unit = "years" }\n'
+    file = study_with(tmp_path, text)
+    with pytest.warns(
+        gc.InputWarning, match=r"\[person\] age: masses of segments of boys of 12 years .* girls as well"
+    ):
+        subject = standing_trials(file, "study").subject
+    assert subject.segments["foot"].mass == pytest.approx(2 * subject.mass * 2.1 / 100.2)
+    file.write_text(file.read_text().replace('value = 12, unit = "years"', 'value = 5, unit = "years"'))
+    with pytest.raises(gc.InputError, match=r"\[person\] age: 5 years cannot be .* 6 to 110 years"):
+        standing_trials(file, "study")

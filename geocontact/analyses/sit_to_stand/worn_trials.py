@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.person import SUM, doubt_age, doubt_value
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.recordings.standing_study import StandingStudy, StandingTrialFiles
@@ -30,16 +31,7 @@ Used = Bool[np.ndarray, " t"]
 
 def person_of(study: StandingStudy) -> Subject:
     """Who is described, without the exoskeleton."""
-    return Subject(study.mass, study.height, sex=study.person.sex, own=study.person.own)
-
-
-SUM = 0.01
-"""Share of body mass by which own masses of all segments may differ from it."""
-OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
-"""Times the table's value for the person's mass and height that an own value may be: a unit of length is 10, an inch
-2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
-WITHIN = {"centre": 1.0, "gyration": 0.7}
-"""Parts of a segment's length that its mass centre and radius of gyration may be; of a rod they are 0.5 and 0.29."""
+    return Subject(study.mass, study.height, sex=study.person.sex, own=study.person.own, age=study.person.age)
 
 
 def confront_segments(subject: Subject, study: Path) -> None:
@@ -47,6 +39,7 @@ def confront_segments(subject: Subject, study: Path) -> None:
 
     A warning for each own value that is far from that of the table for this mass and height, or not within its segment.
     """
+    doubt_age((study, "[person] age"), subject.sex, subject.age, subject.mass, subject.height)
     masses = {name: segment.mass for name, segment in subject.segments.items()}
     if masses["trunk"] <= 0.0 or abs(sum(masses.values()) / subject.mass - 1.0) > SUM:
         legs = sum(masses.values()) - masses["trunk"]
@@ -54,19 +47,13 @@ def confront_segments(subject: Subject, study: Path) -> None:
             f"both legs have {legs:.3g} kg and the trunk {masses['trunk']:.3g} kg, of a body of {subject.mass:.3g} kg"
         )
         raise InputError(study, "[person]", what, "masses of foot, shank and thigh are of one leg; check their sum")
-    usual = segments_of(subject.mass, subject.height, subject.sex, {})
+    usual = segments_of(subject.mass, subject.height, subject.sex, {}, subject.age)
+    beside = f"a person of {subject.mass:.3g} kg and {subject.height:.3g} m"
     for name, values in subject.own.items():
         segment = subject.segments[name]
         for key in values:
-            if key in OWN:
-                share, (least, most) = getattr(segment, key) / getattr(usual[name], key), OWN[key]
-                beside = f"{share:.2g} times that of a person of {subject.mass:.3g} kg and {subject.height:.3g} m"
-            else:
-                share, (least, most) = abs(getattr(segment, key)) / segment.length, (0.0, WITHIN[key])
-                beside = f"{share:.2g} times its length"
-            if not least <= share <= most:
-                what = f"{study} [person] {name}: its {key} is {beside}"
-                reserve(f"{what}: is it in its unit, of one leg, and of this person?", cause=True)
+            value, table = getattr(segment, key), getattr(usual[name], key)
+            doubt_value(f"{study} [person] {name}", key, value, table, segment.length, beside)
 
 
 def joint_torques(

@@ -1,9 +1,10 @@
 """A person with both legs: mass of each segment, all of them together the body mass, with trunk, head and arms as one
 rigid body.
 
-Masses, mass centres and radii of gyration are de Leva's (1996), lengths those of his mean person over the stature. He
-does not say where head and shoulders are above the hips: those are shares of the stature as well (Drillis & Contini
-1966, Body segment parameters, Office of Vocational Rehabilitation, report 1166-03, as Winter 2009 prints it, fig. 4.1).
+Masses, mass centres and radii of gyration are those of the person's segments, by default de Leva's (1996), lengths
+those of his mean person over the stature. He does not say where head and shoulders are above the hips: those are shares
+of the stature as well (Drillis & Contini 1966, Body segment parameters, Office of Vocational Rehabilitation, report
+1166-03, as Winter 2009 prints it, fig. 4.1).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.on_tree import coordinates, joint_numbers
 from geocontact.below_knee_prosthesis.leg import Inertial, Leg, Vector, combined
 from geocontact.contact.bushing import SOCKET, Bushing
-from geocontact.data.body_segments import SEGMENTS, STATURE, Sex
+from geocontact.data.body_segments import BodySegment, BodySegments
 from geocontact.data.parameter import Number
 
 LEGS = 0.491
@@ -30,25 +31,27 @@ HIPS, SHOULDERS, APART = 0.530, 0.818, 0.259
 ARM = ("upper_arm", "forearm", "hand")
 
 
-def upper_body(sex: Sex, mass: float, stature: float) -> Inertial:
+def upper_body(segments: BodySegments, mass: float, stature: float) -> Inertial:
     """All above the hips in a frame with its origin half-way between them, x forward, y up while standing.
 
     Parameters
     ----------
+    segments
+        Of the person.
     mass
-        Of all of it together [kg]; its parts share it as de Leva's do.
+        Of all of it together [kg]; its parts share it as the segments do.
     stature
         [m].
     """
-    parts = tuple(_parts(sex, stature))
+    parts = tuple(_parts(segments, stature))
     own = sum(part[0] for part in parts)
     whole, centre, inertia = combined(parts)
     return mass / own * whole, centre, mass / own * inertia
 
 
-def share_of_body(sex: Sex) -> float:
-    """Mass of the upper body over that of the whole, by de Leva."""
-    return float(sum(part[0] for part in _parts(sex, STATURE[sex])))
+def share_of_body(segments: BodySegments) -> float:
+    """Mass of the upper body over that of the whole."""
+    return float(sum(part[0] for part in _parts(segments, segments.stature)))
 
 
 def turned(body: Inertial, turn: Rotation, place: Vector) -> Inertial:
@@ -58,23 +61,22 @@ def turned(body: Inertial, turn: Rotation, place: Vector) -> Inertial:
     return mass, place + matrix @ centre, matrix @ inertia @ matrix.T
 
 
-def _parts(sex: Sex, stature: float) -> Iterator[Inertial]:
+def _parts(of: BodySegments, stature: float) -> Iterator[Inertial]:
     """Parts of a body of 1 kg, all on the vertical line above the hips but the arms, which hang beside it."""
-    of, scale = SEGMENTS[sex], stature / STATURE[sex]
+    scale = stature / of.stature
     top = (1.0 - HIPS) * stature
     trunk = scale * of["trunk"].length
     for name, start in (("trunk", trunk), ("head", top)):
-        yield _hanging(sex, name, scale, np.array([0.0, start, 0.0]))
+        yield _hanging(of[name], scale, np.array([0.0, start, 0.0]))
     for side in (1.0, -1.0):
         start = (SHOULDERS - HIPS) * stature
         for name in ARM:
-            yield _hanging(sex, name, scale, np.array([0.0, start, 0.5 * side * APART * stature]))
+            yield _hanging(of[name], scale, np.array([0.0, start, 0.5 * side * APART * stature]))
             start -= scale * of[name].length
 
 
-def _hanging(sex: Sex, name: str, scale: float, start: Vector) -> Inertial:
+def _hanging(of: BodySegment, scale: float, start: Vector) -> Inertial:
     """A segment straight down from its proximal end; sagittal is x here, long y, transverse z."""
-    of = SEGMENTS[sex][name]
     long = scale * of.length
     sagittal, transverse, along = of.moments(of.mass, long)
     return of.mass, start - np.array([0.0, of.centre * long, 0.0]), np.diag([sagittal, along, transverse])
@@ -127,7 +129,7 @@ class Amputee:
             *self.intact.foot_bodies(),
         )
         below = keel.posterior_mass + keel.joints * keel.segment_mass + sum(each[0] for each in legs)
-        body = upper_body(self.prosthetic.person.sex, self.mass - below, self.stature)
+        body = upper_body(self.prosthetic.person.segments, self.mass - below, self.stature)
         return turned(body, self.upright, 0.5 * (self.prosthetic.hip + self.intact.hip))
 
     def springs(self) -> dict[str, tuple[float, float]]:
@@ -148,11 +150,13 @@ class Amputee:
         foot = foot_numbers(self.foot, self.fulcrum)
         own |= {name: number for name, number in foot.items() if not name.startswith("sole ")}
         mass, centre, inertia = self.pelvis_body()
-        above = share_of_body(self.prosthetic.person.sex) * self.mass
-        rest = f"what the legs leave, trunk, head and arms included; de Leva has {above:.1f} kg of those"
+        above = share_of_body(self.prosthetic.person.segments) * self.mass
+        body = self.prosthetic.person.segments
+        has = f"{body.source.removesuffix(' 1996')} has {above:.1f} kg of those"
+        rest = f"what the legs leave, trunk, head and arms included; {has}"
         own["stature"] = Number(self.stature, "derived", "given, or from thigh and shank: 0.491 of it")
         own["pelvis mass"] = Number(mass, "derived", rest)
-        stands = "de Leva 1996; upright, arms hanging; heights after Drillis & Contini 1966"
+        stands = f"{body.shape_source}; upright, arms hanging; heights after Drillis & Contini 1966"
         for k, axis in enumerate("xyz"):
             own[f"pelvis centre_{axis}"] = Number(float(centre[k]), "derived", stands)
         for k, l in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):

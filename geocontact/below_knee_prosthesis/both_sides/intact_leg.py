@@ -13,7 +13,6 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.below_knee_prosthesis.leg import Frustum, Inertial, Person, taper
-from geocontact.data.body_segments import SEGMENTS
 from geocontact.data.multibody.model import Marker
 from geocontact.data.parameter import Number
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
@@ -89,8 +88,8 @@ class IntactLeg:
         return float(self.hallux[0] - self.heel[0])
 
     def thigh_body(self) -> Inertial:
-        """Body of the thigh in its frame, by de Leva's shares of mass and length."""
-        of = SEGMENTS[self.person.sex]["thigh"]
+        """Body of the thigh in its frame, by the segment's shares of mass and length."""
+        of = self.person.segments["thigh"]
         mass = of.mass * self.person.mass
         sagittal, transverse, long = of.moments(mass, self.thigh)
         return mass, np.array([0.0, -of.centre * self.thigh, 0.0]), np.diag([sagittal, long, transverse])
@@ -102,8 +101,8 @@ class IntactLeg:
 
     @property
     def density(self) -> float:
-        """Density of that frustum with de Leva's mass of a shank [kg/m³]."""
-        return SEGMENTS[self.person.sex]["shank"].mass * self.person.mass / self.shank_frustum.volume
+        """Density of that frustum with the mass of a shank [kg/m³]."""
+        return self.person.segments["shank"].mass * self.person.mass / self.shank_frustum.volume
 
     def shank_body(self) -> Inertial:
         """Body of the shank in its frame."""
@@ -116,7 +115,7 @@ class IntactLeg:
         A frustum from heel to tip, as thick at the heel as the ankle, whose taper puts the mass centre where de Leva
         has it; cut off at the toe joint. Half-way up between sole and ankle.
         """
-        of = SEGMENTS[self.person.sex]["foot"]
+        of = self.person.segments["foot"]
         whole = Frustum(self.length, self.ankle_radius, taper(of.centre) * self.ankle_radius)
         density = of.mass * self.person.mass / whole.volume
         back = float(self.toe_joint[0] - self.heel[0])
@@ -162,7 +161,7 @@ class IntactLeg:
 
     def numbers(self) -> Mapping[str, Number]:
         """Every number of the segments in SI, and where it is from."""
-        leva, measured = "de Leva 1996, of the body's mass", "from the markers of the standing trial"
+        leva, measured = f"{self.person.segments.source}, of the body's mass", "from the markers of the standing trial"
         rear, toes = self.foot_bodies()
         return {
             "thigh_length": Number(self.thigh, "derived", measured),

@@ -25,7 +25,8 @@ Files are looked for beside the description. `fulcrum = { value = 100, unit = "m
 `calibrated` marks a trial that its `law` was fitted to: that of the trial, such as one for each setting, else the
 person's. `foot` and `socket` of a person describe others than
 the study's. `ground` is a plane or stairs as in `prosthesis simulate`. What may
-be left out: `side`, `sex`, `residual`, `functional`, `law`, `foot`, `socket`, `name`, `calibrated`, `ground`.
+be left out: `side`, `sex`, `residual`, `functional`, `law`, `foot`, `socket`, `name`, `calibrated`, `ground`;
+`age`, `height` and own values of `segments` are those of `described_person`.
 """
 
 from __future__ import annotations
@@ -35,10 +36,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import mm
 from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
+from geocontact.io.recordings.described_person import DescribedPerson
 
 WALKER = Plausible("the mass of a walking person", KG, (20.0, 300.0))
 FULCRUM = Plausible("the place of a fulcrum", mm, (1.0, 500.0))
@@ -46,7 +47,7 @@ LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0))
 Side = Literal["right", "left"]
 
 
-class GaitPerson(Document):
+class GaitPerson(DescribedPerson):
     """A person with a prosthesis.
 
     Parameters
@@ -59,6 +60,12 @@ class GaitPerson(Document):
         Side of the prosthesis.
     sex
         Row of the segment table.
+    age
+        Below 18 years, from 6 on, masses are those of boys of that age.
+    height
+        Body height, which scales the table's lengths beside own values.
+    segments
+        Own values by segment.
     residual
         Share of the shank that is left.
     residual_length
@@ -78,7 +85,6 @@ class GaitPerson(Document):
     mass: Annotated[float, WithUnit(WALKER)]
     static: File
     side: Side = "right"
-    sex: Sex = "male"
     residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None
     residual_length: Annotated[float, WithUnit(LIMB)] | None = None
     residual_markers: Word | None = None

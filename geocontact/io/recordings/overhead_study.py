@@ -33,7 +33,8 @@
 Files are looked for beside the description. A trial with a `level` was recorded in the device: logger and mat of the
 dominant arm are in `recorded`, those of the other arm in `recorded_other`, and `without` names the same work without
 the device. What tells no more than these may be left out: `dominant_share`, lengths of the person, `name`, `upright`,
-`level`, `recorded`, `recorded_other`, `without`.
+`level`, `recorded`, `recorded_other`, `without`. A person may have `age`, `height` and own values of `segments`
+(`described_person`).
 """
 
 from __future__ import annotations
@@ -48,6 +49,7 @@ from pydantic import Field, PlainValidator, model_validator
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, N, Plausible
 from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
+from geocontact.io.recordings.described_person import DescribedPerson
 
 WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)
@@ -97,7 +99,7 @@ class StudyTask(Document):
     dominant_share: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
 
 
-class StudyPerson(Document):
+class StudyPerson(DescribedPerson):
     """A person.
 
     Parameters
@@ -106,6 +108,12 @@ class StudyPerson(Document):
         Body mass.
     sex
         Which segments of de Leva.
+    age
+        Below 18 years, from 6 on, masses are those of boys of that age.
+    height
+        Body height, which scales the table's lengths beside own values.
+    segments
+        Own values by segment; `optimise` only, as `age`.
     dominant
         Side of the dominant hand.
     upper_arm

@@ -36,7 +36,7 @@ from pydantic import Field, model_validator
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, N_M, TALL, N, Plausible
 from geocontact.data.text import same_place
-from geocontact.data.units import Unit, deg, m, mm
+from geocontact.data.units import Unit, deg, mm
 from geocontact.io.documents import (
     Document,
     File,
@@ -50,9 +50,9 @@ from geocontact.io.documents import (
     read_document,
     refusal,
 )
+from geocontact.io.recordings.described_person import OWN, Age, Mass
 
 BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
-LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {
     "length": Plausible("the standard deviation of a place", mm, (1e-4, 1000.0), (0.01, 20.0)),
@@ -77,7 +77,6 @@ Weighed = {
     }.items()
 }
 """What weighs the cost besides the noise, by name."""
-Mass = Annotated[float, WithUnit("kg"), Field(gt=0.0)]
 Masses = dict.fromkeys(("foot_plate", "shank", "thigh", "module"), Mass)
 Damped = {
     name: Annotated[float, WithUnit(unit, bare=True), Field(ge=0.0)]
@@ -160,9 +159,6 @@ class StandingTrialFiles(Document):
         return self
 
 
-OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Annotated[float, WithUnit(LONG), Field(gt=0.0)])}
-
-
 class StandingPerson(Document):
     """Whose segments the person has.
 
@@ -170,12 +166,15 @@ class StandingPerson(Document):
     ----------
     sex
         Row of de Leva's table.
+    age
+        Below 18 years, from 6 on, masses are those of boys of that age.
     foot, shank, thigh, trunk
         Own values in place of the table's: mass, of one leg; length; mass centre from the lower joint, of the foot from
         the ankle forwards; radius of gyration about the mass centre. The trunk has head and arms, from the hips.
     """
 
     sex: Sex = "male"
+    age: Age | None = None
     foot: Annotated[Mapping[str, float], Some(OWN)] = {}
     shank: Annotated[Mapping[str, float], Some(OWN)] = {}
     thigh: Annotated[Mapping[str, float], Some(OWN)] = {}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Bool, Float
 
-from geocontact.data.body_segments import Sex
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side, smoothed_motion
 from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, arm_motions
@@ -204,11 +204,11 @@ def _case(
 
 @dataclass(frozen=True)
 class Worker:
-    """A person at work: mass of the body [kg], sex, the side that holds the tool, lengths for the device."""
+    """A person at work: mass of the body [kg], its segments, the side that holds the tool, lengths for the device."""
 
     name: str
     mass: float
-    sex: Sex
+    segments: BodySegments
     dominant: Side
     lengths: Wearer
 
@@ -260,14 +260,16 @@ def recorded_arms(
         track = arm_track(seen, motions.frame, motion.side)
         push = None if use.push is None else use.push[kept]
         load = hand_load(use.work, motion.side, worker.dominant, use.running[kept], push)
-        needed = elevation_torque(track, load, mass=worker.mass, sex=worker.sex, gravity=gravity, cutoff=cutoff)
+        needed = elevation_torque(
+            track, load, mass=worker.mass, segments=worker.segments, gravity=gravity, cutoff=cutoff
+        )
         own = smoothed_motion(motion, cutoff, settings.gap_limit)
         to_cuff = float(np.linalg.norm(motion.interface - motion.shoulder, axis=1).mean())
         hand: Hand = "dominant" if motion.side == worker.dominant else "other"
         label = f"{name} {motion.side}"
         current = use.current[kept]
         reach = float(np.linalg.norm(track.elbow - track.shoulder, axis=1).mean())
-        moment = arm_moment(worker.mass, worker.sex, reach)
+        moment = arm_moment(worker.mass, worker.segments, reach)
         found.append(
             ArmTrial(
                 label, worker.name, task, hand, needed, own.elevation, current, to_cuff, own, worker.lengths, moment

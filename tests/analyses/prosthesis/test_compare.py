@@ -234,3 +234,26 @@ def test_counts_of_better_stances_are_no_answers() -> None:
     answers = pd.DataFrame({"quantity": ["resultant", "vertical", "stance"], "better": [True, False, np.nan]})
     assert list(in_words(answers)["better"]) == ["yes", "no", ""]
     assert list(in_words(answers)["quantity"]) == ["resultant force", "vertical force", "length of the stance"]
+
+
+OWN_SEGMENTS = """age = { value = 15, unit = "years" }
+height = { value = 1.81, unit = "m" }
+segments.thigh = { mass = { value = 8, unit = "kg" } }
+segments.foot = { mass = { value = 1.1, unit = "kg" } }
+"""
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.InputWarning")
+def test_masses_of_a_described_person_are_those_of_the_leg(tmp_path: Path) -> None:
+    """The thigh its own, the residual limb a part of a shank of 5.6 of 99.9 % (a boy of 15 years)."""
+    opened(Record("prosthesis compare", {}))
+    plain, own = (
+        read_study(ProsthesisCompareOptions(written(tmp_path, "low", changed=change)))[0].walk.leg
+        for change in (("", ""), ("[persons.P1]\n", f"[persons.P1]\n{OWN_SEGMENTS}"))
+    )
+    assert own.thigh_body()[0] == pytest.approx(8.0, rel=1e-12)
+    shares = own.residual_body()[0] / plain.residual_body()[0]
+    assert shares == pytest.approx(5.6 / 99.9 / 0.0433, rel=1e-9)
+    numbers = own.numbers()
+    assert numbers["thigh_mass"].note.startswith("own values of thigh, foot, else Jensen 1986 and 1989, boys of 15")
+    np.testing.assert_allclose(own.thigh_body()[1], plain.thigh_body()[1], rtol=1e-12)

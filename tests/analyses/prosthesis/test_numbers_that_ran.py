@@ -28,6 +28,7 @@ from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import simulate_stance
 from geocontact.below_knee_prosthesis.stance_model import stance_numbers
 from geocontact.contact.bushing import Bushing
+from geocontact.data.body_segments import body_segments
 from geocontact.io.text.results import write_table
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
 from tests.analyses.prosthesis.test_simulate import GIVEN, TRIAL
@@ -79,7 +80,7 @@ def three(told: dict[str, float], name: str) -> np.ndarray:
 
 
 def leg_of(told: dict[str, float]) -> TableLeg:
-    person = Person(told["leg mass"], "male", told["leg residual_share"], told["leg prosthesis_mass"])
+    person = Person(told["leg mass"], body_segments("male"), told["leg residual_share"], told["leg prosthesis_mass"])
     places = [three(told, f"leg {name}") for name in ("hip", "ankle", "keel")]
     turn = Rotation.from_rotvec(three(told, "leg turn"))
     sizes = told["leg thigh_length"], places[1], told["leg knee_radius"], places[2], turn

@@ -17,6 +17,7 @@ import geocontact as gc
 from geocontact.analyses.shoulder.simulate import person_answers
 from geocontact.analyses.shoulder.simulate.person_answers import _leaning, loads_in_laboratory
 from geocontact.analyses.shoulder.simulate.result import ShoulderSimulateResult
+from geocontact.data.body_segments import body_segments
 from geocontact.data.wrench import Wrench
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.human_arm import ArmTrack, HandLoad
@@ -185,7 +186,7 @@ def test_the_back_under_a_kept_torque_is_that_of_the_moved_arms() -> None:
     middle = np.mean([each.simulation.motion.shoulder for each in result.arms], axis=(0, 1)) * [0.0, 1.0, 1.0]
     top = cut.origin + np.einsum("tji,j->ti", cut.rotation, middle)
     trunk = Trunk(person.time[:n], top - result.wearer.torso * cut.rotation[:, 2], top, cut.rotation[:, 0])
-    given = PersonNumbers(mass=82.0, sex="male", gravity=np.array([0.0, -9.81, 0.0]))
+    given = PersonNumbers(mass=82.0, segments=body_segments("male"), gravity=np.array([0.0, -9.81, 0.0]))
     needs, loads = [], []
     for side, kept in person.kept.items():
         track = kept.track
@@ -252,6 +253,6 @@ def test_the_back_of_a_still_trunk_that_leans_by_20_degrees_carries_weights_time
     along = np.array([np.sin(np.radians(20.0)), np.cos(np.radians(20.0)), 0.0])
     hips = np.zeros((9, 3))
     trunk = Trunk(np.arange(9.0), hips, hips + 0.5 * along, np.tile([0.0, 0.0, -1.0], (9, 1)))
-    needs = back_needs(trunk, [], mass=80.0, sex="male", gravity=np.array([0.0, -9.81, 0.0]))
+    needs = back_needs(trunk, [], mass=80.0, segments=body_segments("male"), gravity=np.array([0.0, -9.81, 0.0]))
     lever = 0.4346 * 0.5 * (1.0 - 0.4486) + 0.0694 * 0.5 * (1.0 + 0.4)
     assert extending_torque(trunk, needs) == pytest.approx(80.0 * 9.81 * lever * np.sin(np.radians(20.0)))

@@ -10,6 +10,7 @@ from geocontact.below_knee_prosthesis.both_sides.amputee import share_of_body, u
 from geocontact.below_knee_prosthesis.both_sides.amputee_tree import amputee_tree
 from geocontact.below_knee_prosthesis.both_sides.standing import standing_amputee
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
+from geocontact.data.body_segments import body_segments
 from meshes.amputee import (
     standing_trials,
     standing_values,
@@ -44,17 +45,17 @@ def test_sum_of_segments_by_parallel_axes() -> None:
         x, y, z = place - centre
         about += m * (length * np.array([sagittal, long, transverse])) ** 2
         about += m * np.array([y**2 + z**2, x**2 + z**2, x**2 + y**2])
-    found = upper_body("male", 46.0, TALL)
+    found = upper_body(body_segments("male"), 46.0, TALL)
     assert found[0] == pytest.approx(46.0, rel=1e-12)
     np.testing.assert_allclose(found[1], centre, atol=1e-12)
     np.testing.assert_allclose(found[2], np.diag(46.0 / mass.sum() * about), atol=1e-12)
-    assert share_of_body("male") == pytest.approx(mass.sum(), rel=1e-12)
+    assert share_of_body(body_segments("male")) == pytest.approx(mass.sum(), rel=1e-12)
 
 
 def test_it_is_near_winters_head_arms_and_trunk() -> None:
     """Winter 2009, table 4.1: centre at 0.626 from the shoulder's end, radius of gyration 0.496 of shoulder to hip."""
     long = (0.818 - 0.530) * 1.81
-    _, centre, inertia = upper_body("male", 46.8, 1.81)
+    _, centre, inertia = upper_body(body_segments("male"), 46.8, 1.81)
     assert centre[1] == pytest.approx(0.626 * long, rel=0.12)
     assert np.sqrt(inertia[2, 2] / 46.8) == pytest.approx(0.496 * long, rel=0.12)
 
@@ -66,7 +67,7 @@ def test_it_stands_upright_above_the_hips_whatever_the_pelvis_tilt_is() -> None:
     poses = model.poses(standing_values(model))
     pelvis = next(body for body in model.bodies if body.name == "pelvis")
     hips = 0.5 * (poses["femur_r"].translation + poses["femur_l"].translation)[0]
-    own = upper_body("male", pelvis.mass, 1.81)
+    own = upper_body(body_segments("male"), pelvis.mass, 1.81)
     np.testing.assert_allclose(poses["pelvis"].apply(pelvis.centre)[0] - hips, own[1], atol=1e-12)
     turn = poses["pelvis"].rotation.as_matrix()[0]
     np.testing.assert_allclose(turn @ pelvis.inertia @ turn.T, own[2], atol=1e-12)

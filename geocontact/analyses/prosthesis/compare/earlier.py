@@ -12,6 +12,7 @@ from typing import cast
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.rerun import read_run
 from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.errors import InputError
 
 COMMAND = "prosthesis simulate"
@@ -27,6 +28,8 @@ class AskedStance:
         Its name, or the fulcrum in words.
     calibrated
         Whether the law of its sole was fitted to it.
+    segments
+        Of the person a study describes; None where the options name sex and age.
     """
 
     name: str
@@ -34,6 +37,7 @@ class AskedStance:
     setting: str
     calibrated: bool
     asked: ProsthesisSimulateOptions
+    segments: BodySegments | None
 
 
 def simulated_before(runs: Sequence[Path]) -> list[AskedStance]:
@@ -62,7 +66,7 @@ def simulated_before(runs: Sequence[Path]) -> list[AskedStance]:
             f"{', '.join(fitted)}: whether the law was fitted to that stance is not recorded; a prediction is assumed"
         )
     rows = zip(names, persons, settings, asked, strict=True)
-    return [AskedStance(name, person, setting, False, each) for name, person, setting, each in rows]
+    return [AskedStance(name, person, setting, False, each, None) for name, person, setting, each in rows]
 
 
 def _asked(file: Path) -> ProsthesisSimulateOptions:

@@ -14,6 +14,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, current, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.analyses.motion.markers import unit_of_c3d
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.prosthesis.compare.earlier import AskedStance, simulated_before
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
@@ -100,7 +101,7 @@ def _stance(one: AskedStance, o: ProsthesisCompareOptions, seen: dict[tuple[str,
     asked = one.asked
     _require_setting(one, o)
     with collecting(Record("prosthesis simulate", {})) as own:
-        recorded = read_walk(asked)
+        recorded = read_walk(asked, one.segments)
         walk = walk_of(recorded, asked)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{one.name} {entry['role']}"})
@@ -109,7 +110,9 @@ def _stance(one: AskedStance, o: ProsthesisCompareOptions, seen: dict[tuple[str,
         seen.setdefault((said, line in own.causes), []).append(one.name)
     if walk.plate is None:  # every stance of a study names its plate
         raise ValueError(f"{one.name}: no plate")
-    return StudiedStance(one.name, one.person, one.setting, one.calibrated, asked, recorded, walk, walk.plate)
+    return StudiedStance(
+        one.name, one.person, one.setting, one.calibrated, asked, one.segments, recorded, walk, walk.plate
+    )
 
 
 def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
@@ -117,8 +120,19 @@ def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
     file = o.source
     study = read_gait_study(file)
     add_input("study", file, trials=len(study.trials), persons=len(study.persons))
+    bodies = {
+        name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (file, f"[persons.{name}]"))
+        for name, each in study.persons.items()
+    }
     return [
-        AskedStance(each.name, each.person, each.foot, each.calibrated, _asked(each, study.persons[each.person], o))
+        AskedStance(
+            each.name,
+            each.person,
+            each.foot,
+            each.calibrated,
+            _asked(each, study.persons[each.person], o),
+            bodies[each.person],
+        )
         for each in study.trials
     ]
 
@@ -130,6 +144,7 @@ def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -
         mass=person.mass,
         side=person.side,
         sex=person.sex,
+        age=person.age,
         functional=person.functional,
         foot=person.foot or o.foot,
         setting=trial.setting or "medium",

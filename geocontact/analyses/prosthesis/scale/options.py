@@ -18,6 +18,7 @@ from geocontact.analyses.prosthesis.ranges import (
     require_one_residual,
 )
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import AGE
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,8 @@ class ProsthesisScaleOptions(Options):
         Side of the prosthesis.
     sex
         Row of the table of segment masses.
+    age
+        Age of a child [years], 6 or more: masses of segments are those of boys of that age.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
@@ -83,6 +86,7 @@ class ProsthesisScaleOptions(Options):
     height: Annotated[float | None, STATURE] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
+    age: Annotated[float | None, AGE] = None
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
     residual_markers: str | None = None

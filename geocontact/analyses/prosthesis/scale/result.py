@@ -32,6 +32,7 @@ from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.marker_tasks import FAR, MOVING, MarkerErrors
 from geocontact.analyses.motion.skeleton import MARKER, scene_of, skeleton
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.number_units import with_units
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, residual_of
@@ -156,12 +157,13 @@ def read(o: ProsthesisScaleOptions) -> Stood:
     joints = NO_JOINTS if moving is None else standing_joints(seen, moving)
     keel = foot.keel.posterior_mass + foot.keel.joints * foot.keel.segment_mass
     mass = cast(float, o.mass)
-    person = Person(mass, o.sex, o.residual)
+    segments = person_segments(o.sex, o.age, mass, o.height, {}, ("", ""))
+    person = Person(mass, segments, o.residual)
     if o.prosthesis_mass is not None:
         if o.prosthesis_mass <= keel:
             what = f"{o.prosthesis_mass:g} kg are less than the keel alone, {keel:.2f} kg"
             raise InputError("", "`prosthesis_mass`", what, "give that of socket, pylon and foot")
-        person = Person(mass, o.sex, o.residual, o.prosthesis_mass - keel)
+        person = Person(mass, segments, o.residual, o.prosthesis_mass - keel)
     return Stood(seen, moving, joints, person, foot, fulcrum)
 
 
@@ -169,7 +171,7 @@ FREE, HELD = "amputee.osim", "amputee_ik.osim"
 NOTE = (
     "Made by geocontact prosthesis scale. Springs of socket and keel are those of one fulcrum; the spheres of both "
     "soles have no force law here. Trunk, head and arms are one rigid body with the pelvis (masses and moments of "
-    "inertia: de Leva 1996), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
+    "inertia: {segments}), upright as while standing, arms hanging: they lean and turn with the pelvis alone, "
     "so that moments on pelvis and hips leave out what a trunk does by itself."
 )
 
@@ -237,8 +239,9 @@ class ProsthesisScaleResult(Result):
         """Both models for OpenSim besides."""
         end = f"_{self.options.side[0]}"
         springs = {f"{name}{end}": pair for name, pair in self.amputee.springs().items()}
-        write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=NOTE)
-        write_osim(folder / HELD, self.held, note=NOTE)
+        note = NOTE.format(segments=self.amputee.prosthetic.person.segments.source)
+        write_osim(folder / FREE, self.model, springs=springs, balls=self._balls(), note=note)
+        write_osim(folder / HELD, self.held, note=note)
         super().write_files(folder)
 
     def _balls(self) -> list[ContactBall]:

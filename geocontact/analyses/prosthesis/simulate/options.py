@@ -32,7 +32,7 @@ from geocontact.analyses.prosthesis.ranges import (
     require_walks,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP, SHIFT
+from geocontact.data.plausible import AGE, CUTOFF, GAP, SHIFT
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,8 @@ class ProsthesisSimulateOptions(Options):
         Side of the prosthesis.
     sex
         Row of the table of segment masses.
+    age
+        Age of a child [years], 6 or more: masses of segments are those of boys of that age.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
@@ -157,6 +159,7 @@ class ProsthesisSimulateOptions(Options):
     mass: Annotated[BodyMass | None, PERSON] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
+    age: Annotated[float | None, AGE] = None
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
     residual_markers: str | None = None

@@ -13,6 +13,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, reserve, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.marker_tasks import MOVING
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at, read_schedule
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.scores import ROOM, SCORES
@@ -30,6 +31,7 @@ from geocontact.below_knee_prosthesis.recorded_walk import Walk, fitted_walk, si
 from geocontact.below_knee_prosthesis.schedule import FulcrumSchedule
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.contact.bushing import PRINTED, SOCKET, Bushing
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.geometry.shapes import HalfSpace
@@ -47,8 +49,8 @@ class RecordedWalk:
     standing, moving, seen
         Markers while standing, of the functional trial (None without one), and while walking: recorded, or those of a
         model along its coordinates.
-    mass
-        Of the person [kg].
+    mass, segments
+        Of the person [kg], and of the body.
     joints
         Hip and knee of that model; None without one.
     other, plate
@@ -67,6 +69,7 @@ class RecordedWalk:
     moving: MarkerTrajectories | None
     seen: MarkerTrajectories
     mass: float
+    segments: BodySegments
     joints: ModelLeg | None
     other: PlateStance
     plate: PlateStance | None
@@ -77,8 +80,8 @@ class RecordedWalk:
     schedule: FulcrumSchedule | None = None
 
 
-def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
-    """Everything the options name."""
+def read(o: ProsthesisSimulateOptions, segments: BodySegments | None = None) -> RecordedWalk:
+    """Everything the options name; segments of the person by sex and age, unless they are given."""
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     ground = _ground(o)
     foot = foot_of(o.foot)
@@ -110,6 +113,7 @@ def read(o: ProsthesisSimulateOptions) -> RecordedWalk:
         moving=moving,
         seen=lab.right(seen),
         mass=mass,
+        segments=segments or person_segments(o.sex, o.age, mass, None, {}, ("", "")),
         joints=None if model is None else model.leg(lab.right(standing), o),
         other=lab.stance(other, file),
         plate=plate,
@@ -144,7 +148,7 @@ def walk_of(recorded: RecordedWalk, o: ProsthesisSimulateOptions) -> Walk:
     walk = fitted_walk(
         recorded.standing,
         recorded.seen,
-        Person(recorded.mass, o.sex, o.residual),
+        Person(recorded.mass, recorded.segments, o.residual),
         recorded.foot,
         recorded.fulcrum,
         recorded.other,

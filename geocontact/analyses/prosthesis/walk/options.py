@@ -18,7 +18,7 @@ from geocontact.analyses.prosthesis.ranges import (
 )
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.joint_angle_forms import JointAngleForm
-from geocontact.data.plausible import CUTOFF, GAP
+from geocontact.data.plausible import AGE, CUTOFF, GAP
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,8 @@ class ProsthesisWalkOptions(Options):
         Side of the prosthesis.
     sex
         Row of the table of segment masses.
+    age
+        Age of a child [years], 6 or more: masses of segments are those of boys of that age.
     residual
         Share of the shank's length that is left; 45% by default, which is invented.
     residual_length
@@ -120,6 +122,7 @@ class ProsthesisWalkOptions(Options):
     height: Annotated[float | None, STATURE] = None
     side: Literal["right", "left"] = "right"
     sex: Literal["male", "female"] = "male"
+    age: Annotated[float | None, AGE] = None
     residual: Annotated[Fraction, RESIDUAL, Spelled(default="45%")] = 0.45
     residual_length: Annotated[PartLength | None, LIMB] = None
     residual_markers: str | None = None

@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.recorded_files import LaboratoryFiles, foot_with_law, offset_of_law, residual_of
 from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
@@ -106,7 +107,8 @@ def read(o: ProsthesisWalkOptions) -> RecordedPerson:
         check_trial(TrialInputs(functional, still), only=MOVED_CHECKS)
     standing, seen = lab.right(still), lab.right(walking)
     joints = NO_JOINTS if functional is None else standing_joints(standing, lab.right(functional))
-    person = Person(o.mass, o.sex, o.residual)
+    segments = person_segments(o.sex, o.age, o.mass, o.height, {}, ("", ""))
+    person = Person(o.mass, segments, o.residual)
     made = standing_amputee(standing, person, foot, fulcrum, foot.record.below, joints, o.height)
     length = residual_of(standing, o.residual_length, o.residual_markers, o.side)
     leg = made.prosthetic if length is None else with_residual(made.prosthetic, length)

@@ -11,10 +11,12 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import doubt_tool, push_force, tool_current
 from geocontact.analyses.shoulder.study_checks import check_study, doubt_share
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial, read_overhead_study
 from geocontact.shoulder_exoskeleton.arm_motion import Side
@@ -78,16 +80,26 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
     if not bare:
         reserve("every trial was recorded in the device: the shoulder's torque is for arms that it supported")
     lengths = {name: wearer_of_lengths(o.study, each.lengths) for name, each in study.persons.items()}
-    arms = [arm for trial in bare or study.trials for arm in _arms(o, study, trial, lengths[trial.person])]
+    bodies = {
+        name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (o.study, f"[persons.{name}]"))
+        for name, each in study.persons.items()
+    }
+    arms = [
+        arm
+        for trial in bare or study.trials
+        for arm in _arms(o, study, trial, lengths[trial.person], bodies[trial.person])
+    ]
     unseen = {
-        name: arm_moment(each.mass, each.sex, lengths[name].upper_arm)
+        name: arm_moment(each.mass, bodies[name], lengths[name].upper_arm)
         for name, each in study.persons.items()
         if name not in {trial.person for trial in bare or study.trials}
     }
     return WorkersAndDevice(tuple(arms), device, support_of(device), unseen)
 
 
-def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer) -> list[ArmTrial]:
+def _arms(
+    o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, lengths: Wearer, body: BodySegments
+) -> list[ArmTrial]:
     person, task = study.persons[trial.person], study.tasks[trial.task]
     recorded = renamed_as_told(markers_given(trial.markers, o.axes, None, o.c3d_unit), o.markers_map)
     check_trial(TrialInputs(markers=recorded, turn=turn_of(o.axes)))
@@ -99,7 +111,7 @@ def _arms(o: ShoulderOptimiseOptions, study: OverheadStudy, trial: StudyTrial, l
     push = None if trial.push is None else push_force(trial.push, seen.time)
     use = ToolUse(work, current > Thresholds().on, current, push)
     dominant: Side = "right" if person.dominant == "right" else "left"
-    worker = Worker(trial.person, person.mass, person.sex, dominant, lengths)
+    worker = Worker(trial.person, person.mass, body, dominant, lengths)
     settings = MarkerSettings(upright=trial.upright, gap_limit=o.gap_limit)
     arms, notes = recorded_arms(f"{trial.person}{trial.task}", worker, trial.task, seen, settings, use, o.cutoff)
     for note in notes:

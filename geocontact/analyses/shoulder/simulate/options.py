@@ -29,7 +29,7 @@ from geocontact.analyses.shoulder.shared_options import (
     require_share,
 )
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import CUTOFF, GAP, JOINT_ANGLE, MASS, SHIFT
+from geocontact.data.plausible import AGE, CUTOFF, GAP, JOINT_ANGLE, MASS, SHIFT
 
 FEWEST_DRAWS, MOST_DRAWS = 20, 1000
 """Numbers of draws of marker errors: the outer ones of 20 hold 90 %, more than 1000 take minutes."""
@@ -92,6 +92,8 @@ class ShoulderSimulateOptions(Options):
         needed.
     sex
         Of the table of segments; male by default.
+    age
+        Age of a child [years], 6 or more: masses of segments are those of boys of that age.
     height
         Stature [m], for the sway; the mean of the sex by default.
     tool_mass
@@ -154,6 +156,7 @@ class ShoulderSimulateOptions(Options):
     elevations: Elevations | None = None
     mass: Annotated[BodyMass | None, MASS] = None
     sex: Annotated[Literal["female", "male"] | None, Requires("mass")] = None
+    age: Annotated[float | None, Requires("mass"), AGE] = None
     height: Annotated[float | None, Requires("mass"), HEIGHT] = None
     tool_mass: Annotated[PartMass | None, Requires("mass"), HAND_TOOL] = None
     push: Annotated[

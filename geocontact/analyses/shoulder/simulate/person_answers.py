@@ -13,9 +13,9 @@ import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import note, reserve, say
+from geocontact.analyses.person import person_segments
 from geocontact.analyses.shoulder.simulate.arms import Worn
 from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOptions
-from geocontact.data.body_segments import STATURE
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.data.multibody.markers import MarkerTrajectories
@@ -125,7 +125,8 @@ def person_answers(worn: Worn, arms: Sequence[SimulatedArm], o: ShoulderSimulate
 
 
 def _given(o: ShoulderSimulateOptions, mass: float) -> PersonNumbers:
-    return PersonNumbers(mass=mass, sex=o.sex or "male", gravity=np.array(MarkerSettings().gravity))
+    segments = person_segments(o.sex or "male", o.age, mass, o.height, {}, ("", ""))
+    return PersonNumbers(mass=mass, segments=segments, gravity=np.array(MarkerSettings().gravity))
 
 
 def _side(worn: Worn, arm: SimulatedArm, o: ShoulderSimulateOptions, mass: float) -> _Side:
@@ -196,7 +197,9 @@ def _of_trunk(
     needs = back_needs(trunk, [each.needs for each in sides], **given)
     devices = [each.device for each in sides]
     back = {WITHOUT: extending_torque(trunk, needs), MOTION: extending_torque(trunk, needs, devices)}
-    height = o.height or STATURE[o.sex or "male"]
+    if given["segments"].age is not None and o.height is None:
+        reserve("the sway of a child is that of an adult's height; give `height`")
+    height = o.height or given["segments"].stature
     try:
         person = InvertedPendulum(mass, height, STIFFNESS if o.ankle_stiffness is None else o.ankle_stiffness)
     except ValueError as error:

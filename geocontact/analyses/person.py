@@ -1,0 +1,99 @@
+"""Segments of a described person, confronted with the table of their mass, height and age."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from geocontact.analyses.frame.collector import reserve
+from geocontact.data.body_segments import ADULT, BodySegments, Sex, body_segments
+from geocontact.data.errors import InputError
+
+SUM = 0.01
+"""Share of body mass by which own masses of all segments may differ from it."""
+OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
+"""Times the table's value for the person's mass and height that an own value may be: a unit of length is 10, an inch
+2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
+WITHIN = {"centre": 1.0, "gyration": 0.7}
+"""Parts of a segment's length that its mass centre and radius of gyration may be; of a rod they are 0.5 and 0.29."""
+LIGHTEST, SHORTEST = 30.0, 1.2
+"""Body mass [kg] and height [m] below which an adult's age may be in months."""
+
+
+def doubt_value(where: str, key: str, value: float, usual: float, length: float, beside: str) -> None:
+    """A reservation for an own value that is far from the table's, or not within its segment.
+
+    Parameters
+    ----------
+    usual, length
+        The table's value, and the length of the segment [m].
+    beside
+        What the table is of, in words.
+    """
+    if key in OWN:
+        share, (least, most), of = value / usual, OWN[key], f"times that of {beside}"
+    else:
+        share, (least, most), of = abs(value) / length, (0.0, WITHIN[key]), "times its length"
+    if not least <= share <= most:
+        what = f"{where}: its {key} is {share:.2g} {of}"
+        reserve(f"{what}: is it in its unit, of one side, and of this person?", cause=True)
+
+
+def doubt_age(at: tuple[Path | str, str], sex: Sex, age: float | None, mass: float, height: float | None) -> None:
+    """Reservations for boys' masses, and for an age that body mass or height contradicts.
+
+    Children weigh 2 a + 3 to 7 a + 10 kg at a years here: lines of ours outside of charts of growth.
+    """
+    if age is None:
+        return
+    where = f"{at[0]} {at[1]}".strip()
+    if age < ADULT:
+        girls = ", which are applied to girls as well" if sex == "female" else ""
+        reserve(f"{where}: masses of segments of boys of {age:g} years (Jensen){girls}; centres and radii of adults")
+        if not 2.0 * age + 3.0 <= mass <= 7.0 * age + 10.0:
+            reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years and the mass in kg?", cause=True)
+    elif mass < LIGHTEST or (height is not None and height < SHORTEST):
+        reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years, not in months?", cause=True)
+
+
+def person_segments(
+    sex: Sex,
+    age: float | None,
+    mass: float,
+    height: float | None,
+    own: Mapping[str, Mapping[str, float]],
+    at: tuple[Path | str, str],
+) -> BodySegments:
+    """Segments of a person; InputError for what cannot be, reservations for what is far from the table.
+
+    Parameters
+    ----------
+    mass, height
+        Of the body [kg, m].
+    own
+        Own values by segment, as `data.body_segments.body_segments` takes them.
+    at
+        File and place in it, for messages.
+    """
+    source, place = at
+    where = f"{source} {place}".strip()
+    doubt_age((source, f"{place} age" if source else "`age`"), sex, age, mass, height)
+    try:
+        found = body_segments(sex, age, mass=mass, height=height, own=own)
+    except ValueError as error:
+        raise InputError(source, place, str(error), "write length or height") from error
+    if not own:
+        return found
+    if found["trunk"].mass <= 0.0 or abs(found.whole - 1.0) > SUM:
+        what = (
+            f"all segments have {found.whole * mass:.3g} kg, the trunk {found['trunk'].mass * mass:.3g}, of {mass:.3g}"
+        )
+        raise InputError(source, place, f"{what} kg", "masses of limbs are of one side; check their sum")
+    usual = body_segments(sex, age)
+    scale = found.stature / usual.stature
+    beside = f"a person of {mass:.3g} kg" + ("" if height is None else f" and {height:.3g} m")
+    for name, values in own.items():
+        for key, value in values.items():
+            table = usual[name].mass * mass if key == "mass" else scale * usual[name].length
+            doubt_value(f"{where} {name}", key, value, table, found[name].length, beside)
+    return found
