@@ -41,6 +41,29 @@ AXES = {"LPS": "x to the left, y to the back, z up", "RAS": "x to the right, y t
 """Anatomical axes of scans, of a patient who stands: LPS as in DICOM, RAS as in 3D Slicer."""
 
 
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """The file that a surface was read from, and how its points [m] were placed in the frame of the body.
+
+    Parameters
+    ----------
+    sha256, unit
+        Hash of the file's bytes, and the unit of length that its numbers were read in.
+    placement
+        4 x 4 matrix from the file's frame to the body's, both in m; None where they are the same.
+    """
+
+    sha256: str
+    unit: str
+    placement: Float[np.ndarray, "4 4"] | None = None
+
+    def placed(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+        """Points of the file's frame [m] in the body's frame [m]."""
+        if self.placement is None:
+            return points
+        return np.asarray(points @ self.placement[:3, :3].T + self.placement[:3, 3])
+
+
 @dataclass(frozen=True)
 class Mesh:
     """Indexed triangle mesh.
@@ -60,6 +83,8 @@ class Mesh:
     space
         Anatomical axes that the file says it is in, a key of `AXES`; empty where it says nothing, and once the mesh is
         placed in the frame of its body.
+    placement
+        4 x 4 matrix [m] that placed it there; None for a mesh in the frame of its file.
     """
 
     vertices: Float[np.ndarray, "n 3"]
@@ -68,6 +93,12 @@ class Mesh:
     unit: str = "m"
     sha256: str = ""
     space: str = ""
+    placement: Float[np.ndarray, "4 4"] | None = None
+
+    @property
+    def file(self) -> MeshFile | None:
+        """The file that it was read from; None where it does not come from one."""
+        return MeshFile(self.sha256, self.unit, self.placement) if self.sha256 else None
 
     def __repr__(self) -> str:
         return f"<Mesh {self.name}, {mesh_words(self.vertices, self.faces)}>"

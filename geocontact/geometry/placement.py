@@ -26,4 +26,7 @@ def placed(mesh: Mesh, placement: Float[np.ndarray, "4 4"], metres_per_number: f
         raise ValueError("the placement is singular or not finite")
     vertices = mesh.vertices / metres_per_number @ linear.T + shift
     faces = mesh.faces if volume > 0.0 else np.ascontiguousarray(mesh.faces[:, ::-1])
-    return Mesh(vertices, faces, mesh.name, mesh.unit, mesh.sha256)
+    metric = placement.copy()
+    metric[:3, :3] /= metres_per_number
+    before = np.eye(4) if mesh.placement is None else mesh.placement
+    return Mesh(vertices, faces, mesh.name, mesh.unit, mesh.sha256, placement=metric @ before)

@@ -9,7 +9,7 @@ import igl
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int32
 
-from geocontact.data.mesh import Mesh, mesh_words, repeated_faces
+from geocontact.data.mesh import Mesh, MeshFile, mesh_words, repeated_faces
 from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
 from geocontact.geometry.kernels.binary import Binary, build
@@ -99,6 +99,8 @@ class Surface:
         winding number, and points where it is undecided are reported.
     space
         Anatomical axes that its file says it is in, as in `Mesh`.
+    file
+        The file that it was read from, and its placement; None where it was made or moved since.
 
     Examples
     --------
@@ -114,6 +116,7 @@ class Surface:
     name: str = "surface"
     assume_closed: bool = False
     space: str = ""
+    file: MeshFile | None = None
 
     def __post_init__(self) -> None:
         if len(self.faces) == 0:
@@ -130,7 +133,7 @@ class Surface:
     @classmethod
     def of(cls, mesh: Mesh, assume_closed: bool = False) -> Surface:
         """Surface of a mesh as read from a file."""
-        return cls(mesh.vertices, mesh.faces, mesh.name, assume_closed, mesh.space)
+        return cls(mesh.vertices, mesh.faces, mesh.name, assume_closed, mesh.space, mesh.file)
 
     @cached_property
     def topology(self) -> Topology:

@@ -1,5 +1,6 @@
 """`geocontact view`: the page of a result, or a line that says which one is missing."""
 
+import hashlib
 import webbrowser
 
 import pytest
@@ -71,3 +72,64 @@ def test_window_without_maps_is_one_line(tmp_path, capsys, content):
     assert run(["view", str(tmp_path), "--window"]) == 2
     said = capsys.readouterr().err
     assert len(said.splitlines()) == 1 and "run the analysis again with --save-map" in said
+
+
+@pytest.fixture
+def there(tmp_path, monkeypatch):
+    """An empty folder that is the current one, so that pages are written into it."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_page_of_a_surface_is_made_and_opened_and_renewed(there, opened, capsys):
+    for _ in range(2):
+        assert run(["view", str(SPHERE), "--unit", "mm"]) == 0
+    page = there / "sphere_r20_surface.html"
+    assert opened == [page.as_uri()] * 2
+    assert capsys.readouterr().out.splitlines() == [str(page)] * 2
+    assert hashlib.sha256(SPHERE.read_bytes()).hexdigest() in page.read_text("utf-8")
+    assert run(["view", str(SPHERE), "--unit", "mm", "--out", str(there / "ball.html")]) == 0
+    assert (there / "ball.html").read_bytes() == page.read_bytes()
+
+
+def test_landmarks_of_a_file_stand_on_the_page(there, opened, capsys):
+    (there / "mine.csv").write_text("id,x [mm],y [mm],z [mm]\nepicondyle,0,0,20.0\nfar,0,0,25.5\n")
+    assert run(["view", str(SPHERE), "--unit", "mm", "--landmarks", "mine.csv"]) == 0
+    said = "landmark far of mine.csv is 5.5 mm off sphere_r20.stl"
+    assert said in capsys.readouterr().err
+    page = (there / "sphere_r20_surface.html").read_text("utf-8")
+    assert said in page and "epicondyle" in page
+
+
+REFUSED_SURFACES = {
+    "no unit": ([str(SPHERE)], "--unit: is missing"),
+    "a window": ([str(SPHERE), "--unit", "mm", "--window"], "--window: shows results, not a mesh"),
+    "something else there": ([str(SPHERE), "--unit", "mm", "--out", "mine.html"], "is no page of a surface"),
+    "no folder": ([str(SPHERE), "--unit", "mm", "--out", "no/where.html"], "its folder is not there"),
+    "a damaged mesh": (["bad.stl", "--unit", "mm"], "bad.stl"),
+    "a unit for a result": (["result", "--unit", "mm"], "--unit: is for a mesh"),
+    "landmarks for a result": (["result", "--landmarks", "l.csv"], "--landmarks: is for a mesh"),
+    "landmarks of another unit": ([str(SPHERE), "--unit", "mm", "--landmarks", "cm.csv"], "was picked in cm"),
+    "landmarks of another mesh": ([str(SPHERE), "--unit", "mm", "--landmarks", "other.csv"], "not on sphere_r20.stl"),
+    "landmarks that are not there": ([str(SPHERE), "--unit", "mm", "--landmarks", "none.csv"], "none.csv"),
+    "landmarks twice": ([str(SPHERE), "--unit", "mm", "--landmarks", "twice.csv"], "id A occurs twice"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED_SURFACES)
+def test_a_surface_that_cannot_be_shown_is_one_line(there, opened, capsys, what):
+    words, said = REFUSED_SURFACES[what]
+    head = "id,x [{0}],y [{0}],z [{0}]\nA,0,0,20\n"
+    (there / "mine.html").write_text("my own page")
+    (there / "bad.stl").write_bytes(SPHERE.read_bytes()[:500])
+    (there / "result").mkdir()
+    (there / "result" / "report.html").write_text("x")
+    (there / "cm.csv").write_text("# unit = cm\n" + head.format("cm"))
+    (there / "other.csv").write_text(f"# mesh_sha256 = {'0' * 64}\n" + head.format("mm"))
+    (there / "twice.csv").write_text(head.format("mm") + "A,0,0,-20\n")
+    assert run(["view", *words]) == 2
+    err = capsys.readouterr().err
+    assert said in err and len(err.splitlines()) == 1
+    assert opened == []
+    assert (there / "mine.html").read_text() == "my own page"
+    assert not (there / "sphere_r20_surface.html").exists()

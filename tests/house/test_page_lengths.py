@@ -42,7 +42,7 @@ LIMITS = {
     "how-to/open_or_closed.md": 440,
     "how-to/opensim_motion.md": 380,
     "how-to/own_model.md": 1710,
-    "how-to/page.md": 590,
+    "how-to/page.md": 790,
     "how-to/paraview.md": 300,
     "how-to/pressure.md": 570,
     "how-to/prosthesis.md": 1540,

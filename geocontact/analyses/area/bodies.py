@@ -14,8 +14,14 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.literature import Flexions, flexions_of
 from geocontact.analyses.area.options import LITERATURE, AreaOptions
-from geocontact.analyses.frame import places, quantities
-from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_body_and_outer, refuse_two_spaces
+from geocontact.analyses.frame import places
+from geocontact.analyses.frame.bodies import (
+    check_surfaces,
+    chosen_faces,
+    read_body_and_outer,
+    refuse_two_spaces,
+    typed_axis,
+)
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
 from geocontact.analyses.motion.gait_cycles import cutting_of
@@ -149,10 +155,7 @@ def _refuse_names(paths: Sequence[Path]) -> None:
 def _swept(o: AreaOptions, asked: tuple[str, float, float, float], moving: Surface) -> Motion:
     name, start, stop, step = asked
     if o.axis is not None:
-        file = quantities.named_file(o.axis)
-        if file is not None:
-            add_input("`axis`", file)
-        line = places.axis(o.axis, o.unit)
+        line = typed_axis("`axis`", o.axis, moving, o.unit)
     else:
         fit = fit_cylinder(moving.vertices[moving.used])
         line = fit.line

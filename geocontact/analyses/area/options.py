@@ -103,7 +103,8 @@ class AreaOptions(Options):
     sweep
         Instead of `motion`: turn MOVING about `axis`; name, start, stop and step, typed flexion=0:90:1 in degrees.
     axis
-        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json; else the cylinder fitted to MOVING.
+        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, a fit.json, or two landmarks picked on MOVING,
+        FILE.csv:A:B; else the cylinder fitted to MOVING.
 
     Placement
     ---------
@@ -122,7 +123,8 @@ class AreaOptions(Options):
     medial
         Side of the splitting plane that is medial, instead of `side`.
     region
-        Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
+        Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), a file of face numbers, or picked landmarks:
+        polygon:FILE.csv, or sphere:FILE.csv:NAME:12mm.
     region_moving
         The same for MOVING.
 

@@ -13,7 +13,15 @@ from typing import Literal, Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.frame import places
 from geocontact.analyses.frame.collector import add_input, reserve, say
+from geocontact.analyses.frame.landmarks import (
+    Picked,
+    faces_of_landmarks,
+    picked,
+    points_named,
+    region_kind,
+)
 from geocontact.analyses.frame.quantities import named_file
 from geocontact.analyses.frame.shared_options import RAYS
 from geocontact.contact.elasticity import layer_modulus
@@ -22,14 +30,17 @@ from geocontact.data.mesh import AXES, Mesh
 from geocontact.data.motion import Motion
 from geocontact.geometry.placement import placed
 from geocontact.geometry.regions import Values, faces_where
+from geocontact.geometry.sagittal import Vector
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import thickness_below
+from geocontact.geometry.sweep import Axis
 from geocontact.geometry.union import UnitedSurface, closed_pieces, united
 from geocontact.io.mesh.faces import read_face_indices
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.motion.motion import read_motion
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim_meshes import mesh_placement
+from geocontact.io.text.file_preflight import BYTE_ORDER_MARK, read_bytes
 from geocontact.io.text.units import LENGTH
 from geocontact.trial_checks.mesh_checks import SurfacePair, surface_contradictions
 
@@ -248,12 +259,14 @@ def check_surfaces(
 def chosen_faces(
     option: str, text: str | None, surface: Surface, unit: str, more: Mapping[str, Values] = NOTHING
 ) -> Bool[np.ndarray, " f"] | None:
-    """Faces named by an expression or by a file of face numbers; None when all count.
+    """Faces named by an expression, by a file of face numbers or by landmarks; None when all count.
 
     `more` are names that the expression may use beside places and normals.
     """
     if text is None:
         return None
+    if region_kind(text)[0]:
+        return faces_of_landmarks(option, text, surface, unit)
     file = named_file(text)
     if file is not None:
         add_input(option, file)
@@ -267,6 +280,40 @@ def chosen_faces(
     if not chosen.any():
         raise InputError("", option, f"{text!r} holds for no face of {surface.name}", "check axis, sign and unit")
     return chosen
+
+
+def typed_axis(option: str, text: str, surface: Surface, unit: str) -> Axis:
+    """Axis as typed, of a file, or from one landmark of a surface to another: FILE.csv:A:B."""
+    given = picked(text)
+    if given is not None and not _six_numbers(given):
+        start, end = (np.array(point) for point in points_named(option, given, 2, surface, unit))
+        try:
+            return Axis((start[0], start[1], start[2]), tuple((end - start).tolist()))
+        except ValueError as error:
+            raise InputError(given.file, "", str(error), "name two landmarks that lie apart") from error
+    file = named_file(text)
+    if file is not None:
+        add_input(option, file)
+    return places.axis(text, unit)
+
+
+def typed_centre(option: str, text: str, surface: Surface, unit: str) -> Vector:
+    """Point as typed, centre of a fit, or a landmark of a surface: FILE.csv:NAME."""
+    given = picked(text)
+    if given is not None:
+        return points_named(option, given, 1, surface, unit)[0]
+    file = named_file(text)
+    if file is not None:
+        add_input(option, file)
+    return places.centre(text, unit, option)
+
+
+def _six_numbers(given: Picked) -> bool:
+    """Whether a file holds the numbers of an axis and not a table of landmarks, which has letters."""
+    if given.names:
+        return False
+    text = read_bytes(given.file, places.LONGEST_AXIS, "give six numbers, or name two landmarks")
+    return not any(chr(byte).isalpha() and byte not in b"eE" for byte in text.removeprefix(BYTE_ORDER_MARK))
 
 
 def _placed(role: str, mesh: Mesh, placement: str, unit: str) -> Mesh:

@@ -52,7 +52,8 @@ class MatOptions(Options):
     scan_with_mat
         Instead of landmarks: a second scan of the same body with the mat on, in the same unit; this locates the mat.
     first_corner
-        Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit; needed by `scan_with_mat`.
+        Place x,y,z of `surface` near the mat's corner at its first cell, in the scan's unit, or a landmark picked on
+        it, FILE.csv:NAME; needed by `scan_with_mat`.
     mat_edge
         Width of the mat's border without cells, for `scan_with_mat`: 5mm; none by default.
 
@@ -123,6 +124,8 @@ class MatOptions(Options):
     body_landmarks
         Points known on the scan and a body model: id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm].
         All results are in the body's frame then.
+    picked_on_body
+        Landmarks picked on the body model, by the same ids, instead of the columns body_x, body_y and body_z.
     body
         Surface of that body, for `icp`.
     body_unit
@@ -133,7 +136,8 @@ class MatOptions(Options):
         own: our own search by shape. open3d: that of open3d. auto: open3d where it imports, else our own; auto by
         default.
     segment
-        Part of the surface with a name; may be repeated: "upper=y > 20" (x y z nx ny nz, the scan's unit).
+        Part of the surface with a name; may be repeated: "upper=y > 20" (x y z nx ny nz, the scan's unit), or of picked
+        landmarks, upper=polygon:FILE.csv.
 
     Uncertainty
     -----------
@@ -201,6 +205,9 @@ class MatOptions(Options):
     shear_columns: Annotated[Path | None, Needs("shear_rows", "a two-axis mat records both")] = None
     friction: Annotated[float | None, Requires("shear_rows"), FRICTION] = None
     body_landmarks: Path | None = None
+    picked_on_body: Annotated[
+        Path | None, Needs("body_landmarks", "the same landmarks on the scan are needed as well")
+    ] = None
     body: Annotated[Path | None, Requires("icp", "give `icp`, or leave it out")] = None
     body_unit: Annotated[MeshUnit | None, Requires("body", "leave it out")] = None
     icp: Annotated[

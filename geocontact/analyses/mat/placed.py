@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.bodies import chosen_faces, read_input_surface
 from geocontact.analyses.frame.collector import add_input, note, reserve
+from geocontact.analyses.frame.landmarks import check_picked, region_kind
 from geocontact.analyses.frame.places import centre
 from geocontact.analyses.frame.quantities import named_file
 from geocontact.analyses.mat.comparison import ModelForces, Phase, read_model, read_phases
@@ -54,7 +55,8 @@ def read_segments(scan: Surface, o: MatOptions) -> Parts:
         name, sign, expression = (part.strip() for part in text.partition("="))
         if not sign or not name.replace("_", "").replace("-", "").isalnum() or name in found:
             raise InputError("", "`segment`", f"{text!r} has no name of its own", 'write for example "upper=y > 20"')
-        faces = None if named_file(expression) is None else chosen_faces("`segment`", expression, scan, o.unit)
+        of_scan = bool(region_kind(expression)[0]) or named_file(expression) is not None
+        faces = chosen_faces("`segment`", expression, scan, o.unit) if of_scan else None
         found[name] = expression if faces is None else faces
     return found
 
@@ -132,21 +134,23 @@ def read(o: MatOptions) -> MatInputs:
         listed_dead,
         motion,
         scan,
-        _landmarks(recorded, o),
-        read_second_scan(o),
+        _landmarks(recorded, scan, o),
+        read_second_scan(scan, o),
         np.zeros(3) if o.point is None else np.array(centre(o.point, o.unit, "`point`")),
-        read_body_model(o),
+        read_body_model(scan, o),
         read_segments(scan, o),
         read_phases(o),
         read_model(o),
     )
 
 
-def _landmarks(frames: PressureFrames, o: MatOptions) -> MatLandmarks | None:
+def _landmarks(frames: PressureFrames, scan: Surface, o: MatOptions) -> MatLandmarks | None:
     if o.landmarks is None:
         return None
     marks = read_mat_landmarks(o.landmarks, frames.rows, frames.columns)
     add_input("`landmarks`", o.landmarks, landmarks=len(marks.name))
+    if marks.picked is not None:
+        check_picked(marks.picked, scan, o.unit)
     return marks
 
 

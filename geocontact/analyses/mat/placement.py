@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.bodies import check_surfaces, read_input_surface
+from geocontact.analyses.frame.bodies import check_surfaces, read_input_surface, typed_centre
 from geocontact.analyses.frame.collector import add_input, judge, note, reserve, say
-from geocontact.analyses.frame.places import centre
+from geocontact.analyses.frame.landmarks import check_picked
 from geocontact.analyses.mat.goodness import goodness_of_registration
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.data.errors import InputError
@@ -26,8 +25,9 @@ from geocontact.geometry.register.open3d_icp import shape_registration
 from geocontact.geometry.register.quality import Registration
 from geocontact.geometry.register.scale_guard import compare_boxes, compare_landmarks
 from geocontact.geometry.surface import Surface
+from geocontact.io.recordings.landmarks import EXAMPLE as LANDMARKS
+from geocontact.io.recordings.landmarks import Landmarks, read_landmarks
 from geocontact.io.recordings.mat_results import MatLandmarks
-from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.units import LENGTH
 
 
@@ -76,7 +76,7 @@ def say_which_side(surface: Surface, laid: Drape, marks: Marks, o: MatOptions) -
         )
 
 
-SCAN, BODY = ("x [m]", "y [m]", "z [m]"), ("body_x [m]", "body_y [m]", "body_z [m]")
+BODY = ("body_x [m]", "body_y [m]", "body_z [m]")
 EXAMPLE = "id, x [mm], y [mm], z [mm], body_x [mm], body_y [mm], body_z [mm]"
 
 
@@ -90,13 +90,22 @@ class BodyModel:
     surface: Surface | None
 
 
-def read_body_model(o: MatOptions) -> BodyModel | None:
+def read_body_model(scan: Surface, o: MatOptions) -> BodyModel | None:
     """Landmarks and, where the fit is by shape, the surface; None where results stay in the scan's frame."""
     if o.body_landmarks is None:
         return None
-    names, on_scan, on_body = _pairs(o.body_landmarks)
-    add_input("`body_landmarks`", o.body_landmarks, landmarks=len(names))
     body = None if o.body is None else read_input_surface("body", o.body, o.body_unit or o.unit, None)
+    more = () if o.picked_on_body else BODY
+    seen = read_landmarks(o.body_landmarks, more, LANDMARKS if o.picked_on_body else EXAMPLE)
+    add_input("`body_landmarks`", o.body_landmarks, landmarks=len(seen.names))
+    check_picked(seen, scan, o.unit)
+    if o.picked_on_body is None:
+        return BodyModel(seen.names, seen.points, seen.table[list(BODY)].to_numpy(float), body)
+    there = read_landmarks(o.picked_on_body)
+    add_input("`picked_on_body`", o.picked_on_body, landmarks=len(there.names))
+    if body is not None:
+        check_picked(there, body, o.body_unit or o.unit)
+    names, on_scan, on_body = _of_both(seen, there)
     return BodyModel(names, on_scan, on_body, body)
 
 
@@ -135,17 +144,19 @@ def _by_shape(scan: Surface, body: Surface, start: Registration, o: MatOptions) 
         raise InputError("", "`icp_engine`", str(error), "or leave it out") from error
 
 
-def _pairs(path: Path) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
-    table = read_side_table(path, ("id", *SCAN, *BODY))
-    missing = [name for name in ("id", *SCAN, *BODY) if name not in table.columns]
-    if missing:
-        what = f"no column {', '.join(each.replace('[m]', 'with a unit of length') for each in missing)}"
-        raise InputError(path, "line 1", what, f"write {EXAMPLE}")
-    return (
-        tuple(str(each) for each in table["id"]),
-        table[list(SCAN)].to_numpy(float),
-        table[list(BODY)].to_numpy(float),
-    )
+def _of_both(
+    seen: Landmarks, there: Landmarks
+) -> tuple[tuple[str, ...], Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """Landmarks with an id in both files, and a reservation for those with an id in one."""
+    names = tuple(name for name in seen.names if name in there.names)
+    alone = sorted({*seen.names} ^ {*there.names})
+    if len(names) < 3:
+        what = f"has {len(names)} ids of {seen.path.name}; only one of the two has {', '.join(alone)}"
+        raise InputError(there.path, "", what, "give three landmarks or more the same ids in both")
+    if alone:
+        reserve(f"landmarks with an id in only one of {seen.path.name} and {there.path.name}: {', '.join(alone)}")
+    on_scan, on_body = (np.array([each.point(name) for name in names]) for each in (seen, there))
+    return names, on_scan, on_body
 
 
 def _report_fit(way: str, found: Registration, **more: str) -> None:
@@ -176,12 +187,12 @@ class SecondScan:
     corner: Float[np.ndarray, " 3"] | None
 
 
-def read_second_scan(o: MatOptions) -> SecondScan | None:
+def read_second_scan(scan: Surface, o: MatOptions) -> SecondScan | None:
     """The scan with the mat on; None where there is none."""
     if o.scan_with_mat is None:
         return None
     surface = read_input_surface("scan with the mat", o.scan_with_mat, o.unit, None)
-    corner = None if o.first_corner is None else np.array(centre(o.first_corner, o.unit, "`first_corner`"))
+    corner = None if o.first_corner is None else np.array(typed_centre("`first_corner`", o.first_corner, scan, o.unit))
     return SecondScan(surface, corner)
 
 

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame import places, quantities
-from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_input_surface
-from geocontact.analyses.frame.collector import add_input, listener, reserve, say
+from geocontact.analyses.frame import places
+from geocontact.analyses.frame.bodies import check_surfaces, chosen_faces, read_input_surface, typed_axis, typed_centre
+from geocontact.analyses.frame.collector import listener, reserve, say
 from geocontact.analyses.frame.json_file import finite
 from geocontact.analyses.frame.shared_options import medial_side, refuse_other_axes
 from geocontact.analyses.shape.options import NEEDS, ShapeOptions
@@ -121,7 +121,7 @@ def read(o: ShapeOptions) -> ShapeInputs:
         surface = read_input_surface("mesh", o.mesh, o.unit, o.place)
         if surface.inside_out:
             reserve(f"{surface.name}: faces point inwards; taken the other way round")
-        axis = _axis(o)
+        axis = _axis(surface, o)
         faces = chosen_faces("`region`", o.region, surface, o.unit, _names(surface, axis, o))
     counted = np.ones(len(surface.faces), bool) if faces is None else faces
     if o.split is None:
@@ -143,11 +143,10 @@ def sagittal_about(axis: Axis, o: ShapeOptions) -> Sagittal:
         raise InputError("", "`sagittal`", str(error), "name two directions across the axis") from error
 
 
-def _axis(o: ShapeOptions) -> Axis | None:
+def _axis(surface: Surface, o: ShapeOptions) -> Axis | None:
     if o.axis is None:
         return None
-    _note("`axis`", o.axis)
-    return places.axis(o.axis, o.unit)
+    return typed_axis("`axis`", o.axis, surface, o.unit)
 
 
 def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str, Values]:
@@ -158,8 +157,7 @@ def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str,
         if o.sagittal is not None:
             found |= about_flexion(surface, sagittal_about(axis, o))
     if o.centre is not None:
-        _note("`centre`", o.centre)
-        found |= about(surface, places.centre(o.centre, o.unit), None, LENGTH[o.unit])
+        found |= about(surface, typed_centre("`centre`", o.centre, surface, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
         other = read_input_surface("other", o.other, o.unit, o.place_other)
         check_surfaces(surface, other, ("mesh", "`other`"))
@@ -174,9 +172,3 @@ def _missing(name: str, option: str) -> Values:
         raise ValueError(f"{name} needs {option}")
 
     return refuse
-
-
-def _note(option: str, text: str) -> None:
-    file = quantities.named_file(text)
-    if file is not None:
-        add_input(option, file)

@@ -45,13 +45,16 @@ class ShapeOptions(Options):
     ------------------------------------------
     region
         Faces that count: "outward>0.5 and flexion>30" in x y z nx ny nz (mesh unit), and with `axis` or `centre` radial
-        outward, with `axis` and `sagittal` flexion [deg], with `other` distance; or a file of face numbers.
+        outward, with `axis` and `sagittal` flexion [deg], with `other` distance; or a file of face numbers, or picked
+        landmarks: polygon:FILE.csv, or sphere:FILE.csv:NAME:12mm.
     axis
-        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, or a fit.json of a cylinder.
+        x,y,z,dx,dy,dz (point in the mesh unit), a file of these, a fit.json of a cylinder, or two landmarks picked on
+        the mesh: FILE.csv:A:B.
     hold_axis
         The cylinder is to be parallel to `axis`.
     centre
-        x,y,z (mesh unit), or a fit.json of a sphere: what radial and outward are counted from instead of an axis.
+        x,y,z (mesh unit), a fit.json of a sphere, or a landmark FILE.csv:NAME: what radial and outward are counted from
+        instead of an axis.
     sagittal
         Directions of 0 and 90 degrees of flexion as seen from the axis: -y,x has distal at -y and posterior at +x.
     other
@@ -173,7 +176,11 @@ class ShapeOptions(Options):
         """Those of `NEEDS` that the region speaks of; a file of face numbers speaks of none."""
         from geocontact.analyses.frame.quantities import named_file  # numpy and friends: not for --help
 
-        if self.region is None or named_file(self.region) is not None:
+        if (
+            self.region is None
+            or self.region.startswith(("polygon:", "sphere:"))
+            or named_file(self.region) is not None
+        ):
             return set()
         return {name for name in NEEDS if name in self.region}
 

@@ -13,11 +13,11 @@ from jaxtyping import Float
 
 from geocontact.data.errors import InputError
 from geocontact.io.cases.trial_table import AREA, PLACE, read_trial
+from geocontact.io.recordings.landmarks import Landmarks, read_landmarks
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import listed
 
 EXAMPLE = "id, row, column, x [mm], y [mm], z [mm]"
-COLUMNS = ("id", "row", "column", "x [m]", "y [m]", "z [m]")
 FEWEST = 2
 
 
@@ -33,11 +33,14 @@ class MatLandmarks:
         Row and column in cells from the corner of the first cell: (0, 0) is that corner, (0.5, 0.5) its middle.
     point
         On the scan, in its frame [m].
+    picked
+        The file that they were read from; None where they were found otherwise.
     """
 
     name: tuple[str, ...]
     place: Float[np.ndarray, "k 2"]
     point: Float[np.ndarray, "k 3"]
+    picked: Landmarks | None = None
 
 
 def read_mat_landmarks(path: Path, rows: int, columns: int) -> MatLandmarks:
@@ -46,20 +49,15 @@ def read_mat_landmarks(path: Path, rows: int, columns: int) -> MatLandmarks:
     Refused: fewer than two, a name or a place that occurs twice, a place off the mat, a mat that all of them are on one
     point of.
     """
-    table, file = read_side_table(path, COLUMNS), fspath(path)
-    missing = [name for name in COLUMNS if name not in table.columns]
-    if missing:
-        what = f"no column {', '.join(missing)}; columns are {', '.join(map(str, table.columns))}"
-        raise InputError(file, "line 1", what.replace("[m]", "with a unit of length"), f"write {EXAMPLE}")
+    found, file = read_landmarks(path, ("row", "column"), EXAMPLE), fspath(path)
+    table, names, point = found.table, found.names, found.points
     place = np.array([[_number(table, file, name, k) for name in ("row", "column")] for k in range(len(table))])
-    point = table[["x [m]", "y [m]", "z [m]"]].to_numpy(float)
-    names = tuple(str(each) for each in table["id"])
     if len(names) < FEWEST:
         raise InputError(file, "", f"{len(names)} landmark is too few", "give four or more, two at the least")
-    for what, values in (("id", names), ("place", [tuple(each) for each in place.tolist()])):
-        twice = [each for k, each in enumerate(values) if each in values[:k]]
-        if twice:
-            raise InputError(file, "", f"{what} {twice[0]} occurs twice", "keep one")
+    places = [tuple(each) for each in place.tolist()]
+    twice = [each for k, each in enumerate(places) if each in places[:k]]
+    if twice:
+        raise InputError(file, "", f"place {twice[0]} occurs twice", "keep one")
     off = (place < 0.0) | (place > np.array([rows, columns]))
     if off.any():
         k = int(np.argmax(off.any(axis=1)))
@@ -69,7 +67,7 @@ def read_mat_landmarks(path: Path, rows: int, columns: int) -> MatLandmarks:
         raise InputError(file, f"row {k + 1}", what, "rows and columns count cells from the first cell's corner")
     if not np.ptp(point, axis=0).max() > 0.0:
         raise InputError(file, "", "all landmarks are at one point of the scan", "give their own points")
-    return MatLandmarks(names, place, point)
+    return MatLandmarks(names, place, point, found)
 
 
 def _number(table: pd.DataFrame, file: str, name: str, k: int) -> float:

@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from geocontact.view.curves.declared import Curve, Curves, Limit, Points, Scale, Shade
 from geocontact.view.page.heat import Matrix, StripBlock, Strips
 from geocontact.view.page.plan import Length, Mark, Plan, Track
-from geocontact.view.page.scene import FaceMap, Linkage, Scene, SceneBody
+from geocontact.view.page.scene import FaceMap, Linkage, MeshSource, Scene, SceneBody, SetLandmark
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,7 @@ __all__ = [
     "Linkage",
     "Mark",
     "Matrix",
+    "MeshSource",
     "Page",
     "PageChoice",
     "Picture",
@@ -78,6 +79,7 @@ __all__ = [
     "Scene",
     "SceneBody",
     "Section",
+    "SetLandmark",
     "Shade",
     "Strip",
     "StripBlock",

@@ -122,7 +122,7 @@ class Block:
 
 
 def packed(name: str, array: np.ndarray) -> Block:
-    """Pack an array of u1, u2, u4 or f4, filtered where that is smaller."""
+    """Pack an array of u1, u2, u4, f4 or f8, filtered where that is smaller."""
     little = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
     plain = gzip.compress(little.tobytes(), 9, mtime=0)
     small = plain

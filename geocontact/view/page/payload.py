@@ -190,6 +190,16 @@ def _body(
     }
     if body.distance is not None:
         described["distance"] = stored("distance", levels.codes(body.distance))
+    if body.source is not None:
+        source = body.source
+        described["source"] = {
+            "file": source.file,
+            "sha256": source.sha256,
+            "unit": source.unit,
+            "frame": source.frame,
+            "vertices": stored("source", np.asarray(source.vertices, np.float64)),
+            "landmarks": [asdict(each) for each in source.landmarks],
+        }
     return described
 
 

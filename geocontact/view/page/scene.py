@@ -73,6 +73,53 @@ class Linkage:
 
 
 @dataclass(frozen=True, eq=False)
+class SetLandmark:
+    """A landmark that stands on a body when the page opens.
+
+    Parameters
+    ----------
+    name, row, column
+        Its name, and its place of a mat as written; "" where there is none.
+    at
+        Coordinates in the numbers of the mesh file.
+    corners, weights
+        Vertices of the face that it is shown on, and its barycentric coordinates there.
+    """
+
+    name: str
+    at: tuple[float, float, float]
+    corners: tuple[int, int, int]
+    weights: tuple[float, float, float]
+    row: str = ""
+    column: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSource:
+    """The mesh file of a body on which landmarks may be picked.
+
+    Parameters
+    ----------
+    file, sha256
+        Name and hash of the file, which landmarks are saved with.
+    unit, frame
+        Unit of length of the file's numbers, and words for the frame that they are in.
+    vertices
+        The body's vertices as the file has them, in that unit and frame and in the order of the body's: what is picked
+        has these coordinates, not those of the picture, which are rounded.
+    landmarks
+        Landmarks that are there when the page opens.
+    """
+
+    file: str
+    sha256: str
+    unit: str
+    frame: str
+    vertices: Float[np.ndarray, "n 3"]
+    landmarks: Sequence[SetLandmark] = ()
+
+
+@dataclass(frozen=True, eq=False)
 class SceneBody:
     """A triangle surface, possibly moving, possibly coloured.
 
@@ -89,6 +136,8 @@ class SceneBody:
         was asked, NaN where unknown. None: the body is drawn plain.
     signed
         `distance` is negative inside the other body; False where that body is open and has no inside.
+    source
+        Its mesh file, where landmarks may be picked on it.
     opacity
         At the start, 0 … 1. None: moving bodies are see-through where a fixed one is there to be seen.
     """
@@ -100,6 +149,7 @@ class SceneBody:
     distance: Float[np.ndarray, "t n"] | None = None
     opacity: float | None = None
     signed: bool = True
+    source: MeshSource | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,6 +242,8 @@ class Scene:
                 raise ValueError(f"{body.name}: a face names a vertex that is not there")
             if body.distance is not None and body.distance.shape[1] != len(body.vertices):
                 raise ValueError(f"{body.name}: {body.distance.shape[1]} distances for {len(body.vertices)} vertices")
+            if body.source is not None and body.source.vertices.shape != body.vertices.shape:
+                raise ValueError(f"{body.name}: {len(body.source.vertices)} vertices of its file, not its own number")
         for each in self.maps:
             each.check(self.bodies)
 
@@ -199,6 +251,11 @@ class Scene:
     def measured(self) -> bool:
         """Whether a body has distances, which colours may show."""
         return any(body.distance is not None for body in self.bodies)
+
+    @property
+    def pickable(self) -> bool:
+        """Whether landmarks may be picked on one of its bodies."""
+        return any(body.source is not None for body in self.bodies)
 
     @property
     def threshold(self) -> float:

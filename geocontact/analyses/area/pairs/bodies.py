@@ -15,6 +15,7 @@ from geocontact.analyses.area.bodies import Bodies, read_moved
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.frame.collector import add_input, current, reserve
+from geocontact.analyses.frame.landmarks import region_kind
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.motion.motion import read_motion
@@ -247,5 +248,8 @@ def _beside(home: Path, place: str | None) -> str | None:
 
 
 def _faces(home: Path, text: str | None) -> str | None:
-    """An expression, or a file of face numbers beside the description."""
-    return str(home / text) if text is not None and (home / text).is_file() else text
+    """An expression, or a file of face numbers or of landmarks beside the description."""
+    if text is None:
+        return None
+    kind, of = region_kind(text)
+    return f"{kind}{home / of}" if kind or (home / of).is_file() else text

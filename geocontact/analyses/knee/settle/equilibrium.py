@@ -19,6 +19,7 @@ from geocontact.analyses.frame.bodies import (
     measured_thickness,
     read_body,
     refuse_two_spaces,
+    typed_centre,
 )
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.shared_options import medial_side
@@ -195,7 +196,7 @@ def _motion(o: SettleOptions, file: Path) -> Motion:
 def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:
     """Point of MOVING that the load acts at [m]."""
     if o.load_point is not None:
-        return np.asarray(places.centre(o.load_point, o.unit, "`load_point`"), float)
+        return np.asarray(typed_centre("`load_point`", o.load_point, moving, o.unit), float)
     size = float(np.linalg.norm(moving.local[moving.used], axis=1).max())
     away = float(np.linalg.norm(moving.centre))
     if away > FAR * size:

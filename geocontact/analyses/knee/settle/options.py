@@ -107,7 +107,7 @@ class SettleOptions(Options):
         N/m and N m/rad).
     load_point
         x,y,z: point of MOVING in its frame and the mesh unit that the load acts at and whose translations are the
-        coordinates; MOVING's origin by default.
+        coordinates, or a landmark picked on it, FILE.csv:NAME; MOVING's origin by default.
 
     Elastic layer
     -------------
@@ -120,7 +120,8 @@ class SettleOptions(Options):
     foundation
         linear or logarithmic (finite strain).
     region
-        Faces of FIXED that are the layer: "ny>0.25" in x y z nx ny nz (mesh unit), or a file of face numbers.
+        Faces of FIXED that are the layer: "ny>0.25" in x y z nx ny nz (mesh unit), a file of face numbers, or picked
+        landmarks: polygon:FILE.csv, or sphere:FILE.csv:NAME:12mm.
     split
         Where medial and lateral meet: z, or z=1.5 (mesh unit).
     piece

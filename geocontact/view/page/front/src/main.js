@@ -9,6 +9,7 @@ import { legend, scaleBar, triad } from "./overlays.js";
 import { plan } from "./plan.js";
 import { boldFirst, quantitiesOf } from "./quantities.js";
 import { tables } from "./save.js";
+import { picking } from "./pick.js";
 import { openScene } from "./scene.js";
 import { tools } from "./tools.js";
 
@@ -41,6 +42,8 @@ async function picture(data, time, play) {
   const colour = () => {
     chosen = choices[Number(element("colours")?.value ?? 0)];
     scene.setQuantity(chosen);
+    const coloured = data.scene.maps.length || data.scene.bodies.some((body) => body.distance);
+    element("legend").hidden = Boolean(data.scene.bodies.length && !coloured);
     if (data.scene.bodies.length) legend(element("legend"), data.scene, chosen);
     else names(element("legend"), data.scene);
   };
@@ -52,6 +55,7 @@ async function picture(data, time, play) {
   const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
   tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())], time, play, data.title);
   time.listen(scene.show);
+  if (element("picking")) picking(scene);
   scene.choose = (threshold) => {
     const thresholds = boldFirst(data.scene.thresholds, threshold);
     choices.at(-1).thresholds = thresholds;

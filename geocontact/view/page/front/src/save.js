@@ -21,7 +21,7 @@ export function tables() {
   }
 }
 
-function quoted(text) {
+export function quoted(text) {
   const plain = text.replace(/\u2212(?=[\d.])/g, "-").replaceAll("\u00a0", " ");
   return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }

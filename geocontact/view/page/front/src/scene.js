@@ -75,6 +75,8 @@ export async function openScene(data, canvas) {
     view,
     canvas,
     bodies,
+    /** Whether a point of the scene is cut away by the section plane. */
+    cutAway: (point) => shared.sectioned.value && shared.section.value.x * point.x + shared.section.value.y * point.y + shared.section.value.z * point.z > shared.section.value.w,
     reach,
     draw,
     onPaper,
@@ -131,8 +133,8 @@ export async function openScene(data, canvas) {
 }
 
 async function bodyOf(described, maps, shared, data, inside) {
-  const [steps, faces, poses, distance, ...amounts] = await Promise.all(
-    [described.positions, described.faces, described.poses, described.distance, ...maps].map((block) => block && unpack(block)),
+  const [steps, faces, poses, distance, exact, ...amounts] = await Promise.all(
+    [described.positions, described.faces, described.poses, described.distance, described.source?.vertices, ...maps].map((block) => block && unpack(block)),
   );
   const geometry = geometryOf(steps, faces, described.size);
   const material = materialOf(shared, data, inside);
@@ -182,7 +184,8 @@ async function bodyOf(described, maps, shared, data, inside) {
     colour(frame);
   }
   setOpacity(described.opacity);
-  return { group, geometry, poses, setOpacity, setMap, show, size: described.size };
+  const source = described.source && { ...described.source, faces, exact };
+  return { group, geometry, poses, setOpacity, setMap, show, source, size: described.size };
 }
 
 function matrixOf(poses, k, matrix = new Matrix4()) {

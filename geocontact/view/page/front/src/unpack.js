@@ -1,6 +1,6 @@
 // Packed arrays back into typed arrays; the inverse of pack.py.
 
-const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, f4: Float32Array };
+const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, f4: Float32Array, f8: Float64Array };
 
 /** Typed array of one block. */
 export async function unpack(block) {
