@@ -35,11 +35,11 @@ class OwnSegment(Document):
     mass
         Mass, of one side.
     length
-        Between the ends of de Leva's table.
+        Between de Leva's ends.
     centre
         Mass centre from the proximal end.
     gyration
-        Radius of gyration about the mass centre, across the long axis.
+        Radius of gyration across the long axis.
     """
 
     mass: Mass | None = None
@@ -61,9 +61,9 @@ class DescribedPerson(Document):
     sex
         Row of de Leva's table.
     age
-        Below 18 years, from 6 on, masses are those of boys of that age.
+        From 6 years on; below 18 masses are those of boys.
     height
-        Body height, which scales the table's lengths beside own values.
+        Body height, for lengths beside own values.
     segments
         Own values by segment: head, trunk, upper_arm, forearm, hand, thigh, shank or foot.
     """

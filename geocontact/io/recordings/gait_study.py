@@ -61,9 +61,9 @@ class GaitPerson(DescribedPerson):
     sex
         Row of the segment table.
     age
-        Below 18 years, from 6 on, masses are those of boys of that age.
+        From 6 years on; below 18 masses are those of boys.
     height
-        Body height, which scales the table's lengths beside own values.
+        Body height, for lengths beside own values.
     segments
         Own values by segment.
     residual

@@ -109,9 +109,9 @@ class StudyPerson(DescribedPerson):
     sex
         Which segments of de Leva.
     age
-        Below 18 years, from 6 on, masses are those of boys of that age.
+        From 6 years on; below 18 masses are those of boys.
     height
-        Body height, which scales the table's lengths beside own values.
+        Body height, for lengths beside own values.
     segments
         Own values by segment; `optimise` only, as `age`.
     dominant

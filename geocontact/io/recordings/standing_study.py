@@ -167,7 +167,7 @@ class StandingPerson(Document):
     sex
         Row of de Leva's table.
     age
-        Below 18 years, from 6 on, masses are those of boys of that age.
+        From 6 years on; below 18 masses are those of boys.
     foot, shank, thigh, trunk
         Own values in place of the table's: mass, of one leg; length; mass centre from the lower joint, of the foot from
         the ankle forwards; radius of gyration about the mass centre. The trunk has head and arms, from the hips.
