@@ -45,7 +45,7 @@ def made(kind: type[T], **values: Any) -> T:
 def calibrated(monkeypatch: pytest.MonkeyPatch, *, curved: bool = True) -> CalibratedPhase:
     """A phase whose search, resamples and curvature are given."""
     control: Any = SimpleNamespace(p=(LOW, HIGH), guess_p=FOUND)
-    phase = made(PhaseProblem, control=control, parameters=PARAMETERS)
+    phase = made(PhaseProblem, control=control, parameters=PARAMETERS, terms={"force": None})
 
     def solved(control: Any, *_: object, **__: object) -> CollocationResult:
         low, high = control.p
