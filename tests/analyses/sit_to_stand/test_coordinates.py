@@ -12,10 +12,12 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.calibrate.result import goodness_of_calibration
+from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.movements import hip_height
 from geocontact.standing_up.stance import chain_of
 from meshes.whole_body import HEADING, SAMPLE, main, values_of, whole_body, write_body, write_plates
 from tests.cli.calls import MESHES
@@ -318,3 +320,9 @@ def test_coordinates_alone_make_no_number_of_the_contact_known(tmp_path: Path) -
         assert any("no force of the ground was recorded" in line for line in found.warnings) == (name == "without")
     assert "known" not in set(told["without"]) and "untested" in set(told["without"])
     assert "known" in set(told["with"]) and "untested" not in set(told["with"])
+
+
+def test_a_leg_that_swings_has_no_hip_to_doubt(tmp_path: Path) -> None:
+    """The chain of a stance ends at the thigh: a knee bent by 66 degrees in swing is read, as on OpenSim's walk."""
+    q = np.tile([0.0, 0.1, 0.0, -0.2, np.radians(66.0)], (30, 1))
+    doubt_bending(tmp_path / "swing.mot", chain_of(SUBJECT, 5), q, hip_height(SUBJECT, q))
