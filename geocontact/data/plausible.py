@@ -200,7 +200,7 @@ ROUNDED = Plausible("the radius of a part of a body", mm, (1e-3, 1e4), (0.5, 180
 TOUCH = Plausible("the pressure of a touch", kPa, (1e-3, 1e4), (0.05, 100.0))
 CUFF = Plausible("the pressure of a cuff", mmHg, (1.0, 2000.0), (5.0, 300.0), or_zero=True)
 LAYER_RATIO = Plausible("Poisson's ratio of a layer, below 0.5", PLAIN, (0.0, 0.4999))
-POISSON = Plausible("Poisson's ratio", PLAIN, (-0.9999, 0.5), (0.0, 0.5))
+POISSON = Plausible("Poisson's ratio", PLAIN, (-0.9999, 0.5), (0.02, 0.5), or_zero=True, why="cartilage to rubber")
 
 TURN = Plausible("a small turn", deg, (-45.0, 45.0))
 TILT = Plausible("how far an angle is off", deg, (0.0, 90.0), (0.0, 20.0))
@@ -215,7 +215,7 @@ HELD_TURN = Plausible("the stiffness of a spring that turns", N_M_PER_DEG, (1e-9
 LIMIT = Plausible("the largest force on a limb", N, (1e-6, 1e5), (0.05, 2000.0))
 NOISE = Plausible("the noise of a force", N, (0.0, 1e4), (0.0, 100.0))
 ATTACHMENT = Plausible("the stiffness of an attachment", N_PER_M, (1.0, 1e7), (10.0, 1e5))
-DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (0.0, 1e4))
+DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (1.0, 1e4), or_zero=True)
 SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))

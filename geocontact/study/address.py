@@ -125,6 +125,20 @@ def address_of(
     return hashlib.sha256(json.dumps(depends, sort_keys=True).encode()).hexdigest()[:LENGTH]
 
 
+def contents_of(options: Options, home: Path, digests: Digests) -> tuple[str, tuple[str, ...]]:
+    """A digest of what options ask, whatever their files are called, and the names of these files."""
+    with chdir(home):
+        files = {path.as_posix(): digests.of(path) for path in _files(options)}
+
+    def content(text: str) -> str:
+        for name in sorted(files, key=len, reverse=True):
+            text = text.replace(name, files[name])
+        return text
+
+    plain = {name: _plain(value, content) for name, value in options.in_si().items()}
+    return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest(), tuple(sorted(files))
+
+
 def _plain(value: object, named: Callable[[str], str]) -> object:
     if isinstance(value, (list, tuple)):
         return [_plain(each, named) for each in value]

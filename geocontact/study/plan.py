@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +25,11 @@ from geocontact.analyses.frame.collector import listener, note
 from geocontact.analyses.frame.consent import ALLOWED, foreign, require_consent
 from geocontact.analyses.frame.folder import is_kept
 from geocontact.analyses.frame.job import Job
-from geocontact.analyses.frame.options import declared
+from geocontact.analyses.frame.options import Options, declared
 from geocontact.analyses.frame.result import Part
 from geocontact.data.errors import InputError
-from geocontact.study.address import Digests, address_of, options_of
+from geocontact.io.text.file_preflight import open_file
+from geocontact.study.address import Digests, address_of, contents_of, options_of
 from geocontact.study.cluster import Jobs, job_size
 from geocontact.study.description import StudyFile
 from geocontact.study.limits import LimitSettings, TrialLimits, bytes_of, widest
@@ -37,6 +39,7 @@ from geocontact.study.store import Store
 from geocontact.study.trial_run import DONE, FAILED, STOPPED, WRONG, TrialOutcome, TrialTask
 from geocontact.study.trials import CohortTrial
 from geocontact.study.workers import outcomes, workers_of
+from geocontact.trial_checks.twice import FEWEST
 
 WITHOUT = "without input"
 """State of an evaluation that takes from one that has no results."""
@@ -78,6 +81,12 @@ class Evaluation:
         return self.run.trial
 
 
+def _recorded(file: Path) -> bool:
+    """Whether a file has so many lines that an equal one is no chance: noise never repeats, settings do."""
+    with open_file(file) as lines:
+        return sum(1 for _ in islice(lines, FEWEST + 1)) > FEWEST
+
+
 class StudyPlan:
     """All evaluations of a study, those that are to be made among them.
 
@@ -107,6 +116,8 @@ class StudyPlan:
         self._became: dict[str, TrialOutcome] = {}
         self._kept: dict[str, list[int]] = {}  # that are there and not asked for, of steps that are evaluated anew
         self._named: list[str] = []
+        self._contents: dict[tuple[str, str], tuple[tuple[str, ...], str]] = {}
+        self.copies: list[str] = []
         self._ended: list[int] = []
         self._run_id = secrets.token_hex(8)
         wanted: dict[Part, bool] = {"pages": study.pages, "figures": study.figures}
@@ -228,6 +239,8 @@ class StudyPlan:
             programs = list(read.programs())
         taken = tuple(place for some in places.values() for place in some)
         address = address_of(job, read, home, self._digests, taken, self._without)
+        if not taken:
+            self._notice_copy(one, read)
         task = TrialTask(
             one.run.analysis,
             options,
@@ -242,6 +255,14 @@ class StudyPlan:
             self._without,
         )
         return task, programs
+
+    def _notice_copy(self, one: Evaluation, read: Options) -> None:
+        """Keep words about a trial whose files have other names than those of an earlier one, and the same bytes."""
+        content, names = contents_of(read, self.study.home, self._digests)
+        before, trial = self._contents.setdefault((one.run.step, content), (names, one.trial.name))
+        if before != names and all(_recorded(self.study.home / each) for each in {*names} - {*before}):
+            own, other = (", ".join(sorted({*some} - {*rest})) for some, rest in ((names, before), (before, names)))
+            self.copies.append(f"{one.trial.name}: {own} has the bytes of {other}, of {trial}: it counts twice")
 
     @cached_property
     def _limits(self) -> dict[str, TrialLimits]:

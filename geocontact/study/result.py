@@ -297,6 +297,12 @@ class CohortResult(Result):
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))
 
 
+def _say_copies(plan: StudyPlan) -> None:
+    """A warning for each trial whose inputs are a copy of another one's."""
+    for words in plan.copies:
+        reserve(f"{words}; name the files of each trial's own recording", cause=True)
+
+
 def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     """Results of all trials that can be evaluated; InputError or OSError where none can be."""
     place = results_place()
@@ -306,10 +312,12 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     plan = StudyPlan(planned.file, planned.runs, store, o, asked_for(planned.file, o, out))
     if o.dry_run:
         plan.look()
+        _say_copies(plan)
         return _dry(planned, plan, store, scratch)
     with ExitStack() as held:  # until the tables are written, unless something goes wrong before
         held.enter_context(store.begun())
         plan.look()
+        _say_copies(plan)
         plan.evaluate(_checked(planned, plan, store))
         trials, curves, surface = _looked_at(planned, plan, store, o)
         kept = ExitStack() if scratch is not None else held.pop_all()

@@ -1,4 +1,4 @@
-"""A person's coordinates against a model's ranges, mass against height and legs, and weight against the plates."""
+"""A person's coordinates against a model's ranges, mass against height and legs."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from math import pi
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float
 
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND
-from geocontact.identify.signals.agreement import lag_of
 from geocontact.trial_checks.landmarks import body_points, middle, points
-from geocontact.trial_checks.plate_checks import GRAVITY
 from geocontact.trial_checks.recorded import Check, Contradiction, MovedModel, TrialInputs
+from geocontact.trial_checks.still_checks import FEWEST, smooth
 
 SMALL = 0.5
 """Degrees by which some angle changes; as radians 29 degrees."""
@@ -38,20 +37,8 @@ PELVIS, PELVIS_PARTS = 0.56, (0.8, 1.8)
 the ankle, while standing: 0.275 of the height over 0.246 (Drillis and Contini)."""
 UNEVEN = 0.06
 """m, between the heights of the two knees while standing."""
-SMOOTH = 0.3
-"""s, over which height and force are smoothed before their lag is sought; 0.5 mm of noise are 0.3 m/s^2 then."""
-LATEST, LATE, ALIKE, CLEARER = 0.4, 0.06, 0.8, 0.03
-"""s, of the lags that are looked at, and from which a clock is doubted; correlation of weight and force at that lag,
-and by how much it is above that without a lag."""
-STANDING, FEET, UNDER = 0.15, 100.0, 0.05
-"""s to either side, N on the feet, and m between centre of pressure and the point below the centre of mass: who stands
-sways by 10 mm (Winter, Gait and Posture 3, 1995), and mass centres are known to 20 mm."""
 MOVES, RATE = (0.1, 0.05), (0.7, 1.4)
 """rad/s and m/s, root mean square, from which a rate is compared; times the slope that it may be."""
-OFF, LONG = 0.25, 0.15
-"""Share of the weight, and s for which force and weight may differ by more: a hand on a rail carries as much."""
-FEWEST = 30
-"""Frames of a lag."""
 COARSE, LEVELS = np.radians(0.5), 3
 """rad, of the steps in which an angle is written, and so many of them that it takes; at 100 Hz they are 87 rad/s^2."""
 
@@ -247,72 +234,6 @@ def bones(trial: TrialInputs) -> Iterator[Contradiction]:
             yield Contradiction(moved.source, "", what, "is the model scaled by the right markers?")
 
 
-def _longest(there: Bool[np.ndarray, " t"]) -> Int[np.ndarray, " k"]:
-    """Places of the longest run of what is there."""
-    edges = np.flatnonzero(np.diff(np.r_[False, there, False].astype(int)))
-    runs = [np.arange(start, stop) for start, stop in zip(edges[::2], edges[1::2], strict=True)]
-    return max(runs, key=len, default=np.arange(0))
-
-
-def weight_in_time(trial: TrialInputs) -> Iterator[Contradiction]:
-    """Weight and acceleration of a model that rises, m (g + a), against the force of all plates."""
-    moved = trial.moved
-    if moved is None or trial.stands_at is None or not trial.plates or len(moved.time) < FEWEST:
-        return
-    time = moved.time
-    step = float(np.median(np.diff(time)))
-    force = np.sum([np.interp(time, on.plate.time, on.normal, np.nan, np.nan) for on in trial.plates], axis=0)
-    height = _smooth(moved.model.mass_centre(moved.values) @ trial.up, step)
-    expected = np.gradient(np.gradient(height, step), step)
-    force = _smooth(force, step)
-    off = force / (moved.model.mass * GRAVITY) - 1.0 - expected / GRAVITY
-    other = _longest(np.abs(off) > OFF)
-    on = trial.plates[0]
-    if moved.model.mass > 0.0 and len(other) * step > LONG:
-        names = " and ".join(each.plate.name for each in trial.plates)
-        at = other[int(np.argmax(np.abs(off[other])))]
-        what = f"carry {force[at]:.0f} N at {time[at]:.2f} s, weight and acceleration by {moved.source} are "
-        what += f"{moved.model.mass * (GRAVITY + expected[at]):.0f} N"
-        yield Contradiction(
-            on.source, names, what, "is a plate missing, of a chair or a foot, or the mass another one?"
-        )
-    whole = slice(_half(step), -_half(step))  # beyond it nothing is known of how the person went on
-    if len(time[whole]) < FEWEST:
-        return
-    lag, there = lag_of(expected[whole], force[whole], step, LATEST)
-    _, now = lag_of(expected[whole], force[whole], step, 0.0)
-    if abs(lag) >= LATE and there >= ALIKE and there - now >= CLEARER:
-        when = "before" if lag > 0.0 else "after"
-        what = f"the force of the plates is {abs(lag):.2f} s {when} weight and acceleration of the body"
-        remedy = "plates and coordinates need one clock: shift one of them"
-        yield Contradiction(on.source, on.plate.name, f"{what} by {moved.source}", remedy)
-
-
-def balance(trial: TrialInputs) -> Iterator[Contradiction]:
-    """The centre of pressure of all plates against the centre of mass, while the person stands still."""
-    moved = trial.moved
-    if moved is None or trial.stands_at is None or not trial.plates:
-        return
-    there = np.abs(moved.time - trial.stands_at) <= STANDING
-    time, mass = moved.time[there], moved.model.mass_centre(moved.values[there])
-    if len(time) < 2:
-        return
-    wrenches = [on.plate.at(np.clip(time, on.plate.time[0], on.plate.time[-1])) for on in trial.plates]
-    force = np.nan_to_num(np.sum([np.nan_to_num(each.force) for each in wrenches], axis=0)).mean(axis=0)
-    moment = np.sum([np.nan_to_num(each.moment) for each in wrenches], axis=0).mean(axis=0)
-    if force @ trial.up < FEET:
-        return
-    point = np.cross(trial.up, moment) / (force @ trial.up)
-    off = point - mass.mean(axis=0)
-    off -= (off @ trial.up) * trial.up
-    if np.linalg.norm(off) > UNDER:
-        k = int(np.argmax(np.abs(off)))
-        on = trial.plates[0]
-        what = f"its centre of pressure is {1e3 * abs(off[k]):.0f} mm along {'xyz'[k]} from below the centre of mass"
-        remedy = "do plates and coordinates have one origin and the same axes?"
-        yield Contradiction(on.source, on.plate.name, f"{what} while the person stands", remedy)
-
-
 def differentiated(trial: TrialInputs) -> Iterator[Contradiction]:
     """Rates that a file has against the slopes of the coordinates."""
     moved = trial.moved
@@ -323,8 +244,8 @@ def differentiated(trial: TrialInputs) -> Iterator[Contradiction]:
         return
     step = float(np.median(np.diff(moved.time)))
     for k, c in enumerate(moved.model.coordinates):
-        slope = np.gradient(_smooth(moved.values[there, k], step), step)
-        rate = _smooth(moved.rates[there, k], step)
+        slope = np.gradient(smooth(moved.values[there, k], step), step)
+        rate = smooth(moved.rates[there, k], step)
         size = float(np.sqrt(np.mean(slope**2)))
         if size < MOVES[c.kind != "rotational"]:
             continue
@@ -333,18 +254,6 @@ def differentiated(trial: TrialInputs) -> Iterator[Contradiction]:
             what = f"the rate of {c.name} is {times:.3g} times the slope of its values"
             remedy = "is its sign turned, or is it in degrees and not in radians, or of another trial?"
             yield Contradiction(moved.source, "", what, remedy)
-
-
-def _smooth(values: Float[np.ndarray, " t"], step: float) -> Float[np.ndarray, " t"]:
-    """Mean over `SMOOTH` with the weights of a Hann window; beyond the ends what moves there goes on at its rate."""
-    half = _half(step)
-    weights = np.hanning(2 * half + 3)[1:-1]
-    return np.convolve(np.pad(values, half, mode="reflect", reflect_type="odd"), weights / weights.sum(), "valid")
-
-
-def _half(step: float) -> int:
-    """Samples of half of the window."""
-    return max(round(0.5 * SMOOTH / step), 1)
 
 
 BODY_CHECKS = (
@@ -385,19 +294,6 @@ BODY_CHECKS = (
         f"{PARTS[0]:g} to {PARTS[1]:g} between joints, 0.97 in men and 0.85 in women (de Leva 1996); "
         f"{PELVIS_PARTS[0]:g} to {PELVIS_PARTS[1]:g} by markers; knees {1e3 * UNEVEN:.0f} mm apart in height",
         segments,
-    ),
-    Check(
-        "weight in time",
-        "force of all plates with weight and acceleration of the model's centre of mass, for who stands up",
-        f"{OFF:.0%} of the weight for {LONG:g} s; {LATE:g} s of lag, where the correlation at it is {ALIKE:g} and "
-        f"{CLEARER:g} above that without",
-        weight_in_time,
-    ),
-    Check(
-        "balance",
-        "centre of pressure of all plates with the model's centre of mass, while the person stands",
-        f"{1e3 * UNDER:.0f} mm, mean of {2 * STANDING:g} s; who stands sways by 10 mm (Winter 1995)",
-        balance,
     ),
     Check(
         "rates",

@@ -243,7 +243,8 @@ def floor(trial: TrialInputs) -> Iterator[Contradiction]:
                 what = (
                     f"the lowest marker of {the_foot(side)} is {1e3 * height:.0f} mm above the plate that it stands on"
                 )
-                remedy = "is the floor at the same height in plates and markers?"
+                remedy = "is the floor at the same height in plates and markers"
+                remedy += ", and are the spheres where the sole is?" if trial.on_sole else "?"
                 yield Contradiction(step.on.source, step.on.plate.name, what, remedy)
             elif not trial.on_sole:
                 yield from _heel_below(step, points(seen, ("heel",), side)[frames], trial)

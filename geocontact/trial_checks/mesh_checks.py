@@ -84,6 +84,15 @@ def side(name: str) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
+def body_side(name: str) -> str:
+    """The side of a model's body: the word, or the letter at the end; "" for none.
+
+    >>> body_side("femur_r"), body_side("tibia_l"), body_side("tibia_left"), body_side("pelvis")
+    ('right', 'left', 'left', '')
+    """
+    return side(name) or {"_r": "right", "_l": "left"}.get(name.lower()[-2:], "")
+
+
 def same_surface(pair: SurfacePair) -> Iterator[Contradiction]:
     """Edges of the one against those of the other."""
     a, b = pair.moving, pair.fixed
@@ -117,11 +126,13 @@ def called(pair: SurfacePair) -> Iterator[Contradiction]:
 
 
 def of_one_side(pair: SurfacePair) -> Iterator[Contradiction]:
-    """Right and left in the names of the files, of the motion, and in the side that is said."""
-    first, *others = [name for name in (pair.moving.name, pair.fixed.name, *pair.beside) if side(name)] or [""]
+    """Right and left in the names of the files, of the motion, of the bodies, and in the side that is said."""
+    sides = {name: side(name) for name in (pair.moving.name, pair.fixed.name, *pair.beside)}
+    sides |= {f"{name} in `bodies`": body_side(name) for name in pair.bodies or ()}
+    first, *others = [name for name, known in sides.items() if known] or [""]
     for other in others:
-        if side(other) != side(first):
-            what = f"is of the {side(first)} by its name, and {other} of the {side(other)}"
+        if sides[other] != sides[first]:
+            what = f"is of the {sides[first]} by its name, and {other} of the {sides[other]}"
             yield Contradiction(first, "", what, "unless one was mirrored, are both of one joint?")
             return
 
@@ -147,7 +158,7 @@ MESH_CHECKS = (
     ),
     MeshCheck(
         "sides of two surfaces",
-        "right and left in names of files, those of the motion among them, and in `side`",
+        "right and left in names of files, those of the motion among them, of `bodies`, and in `side`",
         "one says right, another left",
         of_one_side,
     ),

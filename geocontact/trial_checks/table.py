@@ -11,6 +11,7 @@ from geocontact.trial_checks.foot_checks import FOOT_CHECKS
 from geocontact.trial_checks.marker_checks import MARKER_CHECKS
 from geocontact.trial_checks.plate_checks import PLATE_CHECKS
 from geocontact.trial_checks.recorded import Check, Contradiction, TrialInputs
+from geocontact.trial_checks.still_checks import STILL_CHECKS
 from geocontact.trial_checks.twice import COPY_CHECKS
 
 CHECKS: tuple[Check, ...] = (
@@ -20,6 +21,7 @@ CHECKS: tuple[Check, ...] = (
     *PLATE_CHECKS,
     *FOOT_CHECKS,
     *BODY_CHECKS,
+    *STILL_CHECKS,
     *CHANNEL_CHECKS,
 )
 """Every check of a recorded trial."""

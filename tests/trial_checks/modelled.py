@@ -188,7 +188,42 @@ def uneven(copied: bool) -> Change:
     return change
 
 
+def tilted(share: float) -> Change:
+    """With a part of the force out of the floor in the force along it."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        on = trial.plates[0]
+        force = on.plate.wrench.force.copy()
+        force[:, 0] += share * force[:, 1]
+        return replace(
+            trial, plates=(replace(on, plate=replace(on.plate, wrench=replace(on.plate.wrench, force=force))),)
+        )
+
+    return damage
+
+
+def seated(by: float) -> Change:
+    """On a chair before the rise, whose plate is elsewhere [m]; its load goes over to the feet within 0.1 s."""
+
+    def damage(_: TrialInputs) -> TrialInputs:
+        trial = risen()
+        on = trial.plates[0]
+        whole = on.plate.wrench.force
+        share = np.clip((TIME - FIRST) / 0.1, 0.0, 1.0)[:, None]
+        place = np.tile([by, 0.0, 0.0], (len(TIME), 1))
+        chair = ForcePlate(
+            "chair", TIME, Wrench((1.0 - share) * whole, 0.0 * whole, place, "ground"), np.zeros(3), on.plate.normal
+        )
+        feet = replace(on.plate, wrench=replace(on.plate.wrench, force=share * whole))
+        return replace(trial, plates=(replace(on, plate=feet), FootPlate(chair, "plates.mot")))
+
+    return damage
+
+
 DAMAGED: dict[str, tuple[str, Change]] = {
+    "cross-talk of 15 %": ("level", tilted(0.15)),
+    "a chair 0.2 m ahead": ("balance before the rise", seated(0.2)),
     "a knee's column copied": ("one coordinate twice", uneven(copied=True)),
     "radians as degrees": ("angles in degrees", angled(np.radians)),
     "angles to whole degrees": ("resolution", angled(lambda q: np.radians(np.round(np.degrees(q))))),
@@ -221,6 +256,8 @@ NEARLY: dict[str, Change] = {
     "angles to a tenth of a degree": angled(lambda q: np.radians(np.round(np.degrees(q), 1))),
     "knees 8 degrees beyond their range": angled(lambda q: np.full_like(q, np.radians(20.0))),
     "feet 30 mm aside": aside(0.03),
+    "cross-talk of 5 %": tilted(0.05),
+    "a chair 60 mm ahead": seated(0.06),
     "rates as they are": rated(1.0),
     "rates a fifth too large": rated(1.2),
     "0.03 s late under who rises": later(0.03),

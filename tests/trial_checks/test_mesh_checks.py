@@ -64,12 +64,17 @@ DAMAGED: dict[str, tuple[str, Change]] = {
         "sides of two surfaces",
         lambda p: replace(named(p, "right"), beside=("gait_left.csv",)),
     ),
+    "bodies of the other leg": (
+        "sides of two surfaces",
+        lambda p: replace(p, bodies=("femur_l", "tibia_l"), beside=("`side` right",)),
+    ),
 }
 NEARLY: dict[str, Change] = {
     "as it is": lambda p: replace(p, bodies=("femur_r", "tibia_r"), layered=True),
     "a copy that is 1 % larger": twice(0.0, 1.01),
     "6 times as large": scaled(6.0),
-    "bodies of other names": lambda p: replace(p, bodies=("a", "b")),
+    "bodies of other names": lambda p: replace(p, bodies=("a", "b"), beside=("`side` right",)),
+    "bodies of this leg": lambda p: replace(p, bodies=("femur_r", "tibia_r"), beside=("`side` right",)),
     "all of one side": lambda p: replace(named(p, "right"), beside=("`side` right", "gait.csv", "right_or_left.csv")),
     "without a layer": lambda p: replace(p, moving=p.fixed, fixed=p.moving),
 }

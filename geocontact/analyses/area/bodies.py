@@ -47,6 +47,9 @@ from geocontact.view.surfaces.vtp_series import require_pyvista
 
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
+FROZEN, JUMPS = 5, 3.0
+"""Frames with one pose, and parts of a usual step that the one after them is."""
+
 
 def motions_given(o: AreaOptions, moving: Surface) -> list[tuple[str, Motion]]:
     """Name of the sub-folder (empty when there is one motion) and motion, with the offset of adduction asked for."""
@@ -67,6 +70,7 @@ def _read(o: AreaOptions) -> list[tuple[str, Motion]]:
     for path, motion in motions.items():
         folder = path.stem if len(motions) > 1 else ""
         add_input("motion", path, frames=len(motion), source=motion.source, folder=folder or ".")
+        _doubt_frozen(path, motion)
         if path in bases:
             motion = _relative(motion, *bases[path])
         found.append((folder, motion))
@@ -100,6 +104,24 @@ def _motions_of_fixed(o: AreaOptions, paths: list[Path]) -> dict[Path, tuple[Pat
         raise InputError("", "`motion_fixed`", what, "give one for each, in the same order")
     read = [read_motion(path, order=o.order, angles=o.angles, unit=o.unit, rate=o.rate) for path in fixed]
     return dict(zip(paths, zip(fixed, read, strict=True), strict=True))
+
+
+def _doubt_frozen(path: Path, motion: Motion) -> None:
+    """A warning for one pose in `FROZEN` frames or more, after which the body jumps: what rests starts slowly."""
+    step = np.linalg.norm((motion.poses[:-1].inv() * motion.poses[1:]).as_matrix() - np.eye(4), axis=(1, 2))
+    still = step == 0.0
+    if still.all() or not still.any():
+        return
+    usual = float(np.median(step[~still]))
+    edges = np.flatnonzero(np.diff(np.r_[False, still, False].astype(int)))
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        inside = first > 0 and last < len(step)
+        if inside and last - first + 1 >= FROZEN and step[last] > JUMPS * usual:
+            when = f"{motion.time[first]:g} to {motion.time[last]:g} s"
+            reserve(
+                f"{path}: one pose in {last - first + 1} frames, {when}, and a jump after it: was the body lost there?"
+            )
+            return
 
 
 def _relative(motion: Motion, file: Path, fixed: Motion) -> Motion:

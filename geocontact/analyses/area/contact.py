@@ -338,7 +338,7 @@ def warn_of_overlap(e: AreaEvolution, motion: Motion, name: str) -> None:
     if round(depth, DIGITS) >= OVERLAP:
         reserve(
             f"{_of(name)}the bodies overlap, by {depth * 1e3:.2f} mm at most, in {_nearest(e, motion)}; "
-            f"rigid ones do not: check {PLACES}, the order of rotations, "
+            f"rigid ones do not: check units and signs of the motion, {PLACES}, the order of rotations, "
             "that quaternions have the scalar first, and which body moves"
         )
 

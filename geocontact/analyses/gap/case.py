@@ -16,7 +16,7 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
-from geocontact.data.plausible import Plausible
+from geocontact.data.plausible import ATTACHMENT, Plausible
 from geocontact.data.units import mm
 from geocontact.io.cases.case_settings import SETTINGS, read_settings
 from geocontact.io.cases.gap_case import read_gap_case
@@ -89,6 +89,12 @@ SHARES = {"shoulder": ("level",)}
 ARM = Plausible("a length of an exoskeleton's arm", mm, (-1e9, 1e9), (-2000.0, 2000.0), least=5.0)
 LENGTHS = {"elbow": ("l", "z", "l_ex", "z_ex")}
 """Constants of a base model that are lengths in m, by its name."""
+STARTS = {("elbow", "k"): ATTACHMENT}
+"""Sizes of a base model's parameters, by its name and theirs, where they are known."""
+OTHER_UNIT, ALIKE = 25.0, 5.0
+"""How many times larger or smaller a channel is in one trial than in the others for another unit, the smallest of which
+that people mix up is 57, degrees for radians, of trials that differ by 2; and by how much its other channels may
+differ then."""
 SMALL = 0.05
 """Share of what a channel changes from sample to sample, below which a stated noise is another unit's."""
 
@@ -101,6 +107,11 @@ def doubt_numbers(case: GapCase, file: Path) -> None:
     for name in LENGTHS.get(case.system, ()):
         if name in case.constants and (doubt := ARM.doubt(float(case.constants[name]))):
             reserve(f"{file} [constants] {name}: {doubt}")
+    for parameter in case.parameters:
+        known_size = STARTS.get((case.system, parameter.name))
+        if known_size is not None and (doubt := known_size.doubt(parameter.start)):
+            reserve(f"{file} [parameters.{parameter.name}] start: {doubt}")
+    _doubt_units(case, file)
     for channel, noise in case.noise.items():
         recorded = [trial.column(channel) for trial in case.calibration if channel in trial.signals.channels]
         known = [each[np.isfinite(each)] for each in recorded]
@@ -114,6 +125,27 @@ def doubt_numbers(case: GapCase, file: Path) -> None:
             reserve(f"{where}, more than the channel changes in the trials, {spread:.3g}; is it in the channel's unit?")
         elif noise < SMALL * rough:
             reserve(f"{where}, and the channel changes by {rough:.3g} from sample to sample; is it in its unit?")
+
+
+def _doubt_units(case: GapCase, file: Path) -> None:
+    """A warning for a trial of which one channel has another size than in the others, and no other channel."""
+    sizes: dict[str, dict[str, float]] = {}
+    for trial in (*case.calibration, *case.evaluation):
+        for channel in trial.signals.channels:
+            known = trial.column(channel)[np.isfinite(trial.column(channel))]
+            if len(known) > FEWEST and np.std(known) > 0.0:
+                sizes.setdefault(channel, {})[trial.name] = float(np.std(known))
+    times = {
+        (trial, channel): size / float(np.median([each for name, each in of.items() if name != trial]))
+        for channel, of in sizes.items()
+        if len(of) > FEW
+        for trial, size in of.items()
+    }
+    for (own, channel), ratio in times.items():
+        others = [each for (name, other), each in times.items() if name == own and other != channel]
+        if max(ratio, 1.0 / ratio) > OTHER_UNIT and others and all(1.0 / ALIKE < each < ALIKE for each in others):
+            what = f"trial {own}: {channel} changes by {ratio:.3g} times what it does in the other trials"
+            reserve(f"{file}: {what}, and nothing else of it differs so: is it in another unit?")
 
 
 FEWEST = 10

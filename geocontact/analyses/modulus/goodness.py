@@ -130,7 +130,18 @@ def _of_side(found: Identified, side: str) -> Iterable[Doubt]:
         yield from of_size(f"{side}: work of adhesion", (work.lower, work.upper), ADHESION)
     if each.model.reading.name != "strip":
         yield from _of_radius(side, each.model.evolution)
-    width, radius = float(np.sqrt(each.model.evolution.area.max() / np.pi)), float(np.max(each.model.evolution.radius))
+    yield from _of_width(side, each.model.evolution, strip=each.model.reading.name == "strip")
+
+
+def _of_width(side: str, areas: ThresholdAreas, *, strip: bool) -> Iterable[Doubt]:
+    """A doubt for an area that is wider than the contact's radius: as a circle, or as a strip of the stated length."""
+    if strip:
+        half, radius = float(areas.area.max()) / (2.0 * areas.length), float(np.max(areas.radius))
+        if half > radius:
+            what = f"{side}: the largest area is {2e3 * half:.1f} mm wide on a strip of {1e3 * areas.length:.4g} mm"
+            yield Doubt(f"{what}, more than twice the radius, {1e3 * radius:.4g} mm: is its length in mm?", False)
+        return
+    width, radius = float(np.sqrt(areas.area.max() / np.pi)), float(np.max(areas.radius))
     if width > radius:
         what = f"{side}: the largest area is that of a circle of {1e3 * width:.1f} mm, wider than the radius of the"
         yield Doubt(f"{what} contact, {1e3 * radius:.4g} mm: is that radius in mm, and are the areas in mm²?", False)

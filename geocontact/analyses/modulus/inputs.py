@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.modulus.options import ModulusOptions
 from geocontact.contact.area_hertz import READINGS, Reading
 from geocontact.data.errors import InputError
@@ -40,6 +40,7 @@ from geocontact.io.recordings.area_table import (
 from geocontact.io.recordings.pose_draws import PoseDraws, read_pose_draws
 from geocontact.io.text.columns import angles_of, parse_map
 from geocontact.io.text.tables import read_table
+from geocontact.trial_checks.twice import same_recordings
 
 FLEXION = "flexion"
 ORDER = ("total", "medial", "lateral")
@@ -91,7 +92,7 @@ def read(o: ModulusOptions) -> ModulusInputs:
     lag = 0.0 if o.lag is None else o.lag
     given = STICKY if o.work_of_adhesion is None else o.work_of_adhesion
     sticks = None if o.adhesion is None else Adhesion(o.adhesion, given)
-    other, draws = _other(o, mapping), _draws(o, table, sides)
+    other, draws = _other(o, table, mapping), _draws(o, table, sides)
     return ModulusInputs(table, forces, evolutions, reading, lag, sticks, sides, measured, other, draws)
 
 
@@ -150,13 +151,24 @@ def _measured_areas(o: ModulusOptions, table: AreaTable) -> MeasuredAreas | None
         what, remedy = "calibrating needs areas at 3 thresholds or more", "see `threshold` of geocontact area"
         raise InputError(o.calibrate, "", what, remedy)
     add_input("`calibrate`", o.calibrate)
-    return read_area_over_force(o.calibrate)
+    force, area = read_area_over_force(o.calibrate)
+    low, high = int(np.argmin(force)), int(np.argmax(force))
+    if area[high] < area[low]:
+        what = f"its area falls from {1e6 * area[low]:.0f} to {1e6 * area[high]:.0f} mm² while the force grows from"
+        reserve(
+            f"{o.calibrate}: {what} {force[low]:.0f} to {force[high]:.0f} N: does each area stand beside its force?"
+        )
+    return force, area
 
 
-def _other(o: ModulusOptions, mapping: Mapping[str, tuple[float, str]]) -> OtherTrial | None:
+def _other(o: ModulusOptions, used: AreaTable, mapping: Mapping[str, tuple[float, str]]) -> OtherTrial | None:
     if not o.predict_area:
         return None
     table = _areas("`predict_area`", o.predict_area)
+    if same_recordings({"used": used.areas["total"], "other": table.areas["total"]}):
+        reserve(
+            f"{table.file}: `predict_area` has the areas of `area`, sample by sample: name those of the other trial"
+        )
     if o.predict_force is None:
         return OtherTrial(table, None)
     return OtherTrial(table, _forces("`predict_force`", o.predict_force, o, mapping))

@@ -15,7 +15,7 @@ LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0), (80.0, 300.
 PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (0.8, 4.0))
 STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
-EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0))
+EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0), (3.0, 150.0), or_zero=True)
 USUAL_SHARE = 0.45
 FEWEST_WALKS, MOST_WALKS = 4, 600
 """Draws of the markers' errors for a band: fewer say nothing about its width."""

@@ -11,8 +11,11 @@ from geocontact.analyses.motion.markers import unit_of_c3d
 from geocontact.data.errors import InputError
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.recordings.overhead_study import OverheadStudy, StudyTrial
+from geocontact.trial_checks.plate_checks import GRAVITY
 from geocontact.trial_checks.recorded import TrialInputs
 
+HEAVY = 0.4
+"""Share of a person's weight above which a push overhead is doubted; drilling overhead takes 35 to 200 N."""
 HALF = 0.5
 """Share of a push below which the other hand exerts more of it."""
 
@@ -29,6 +32,7 @@ def check_study(study: OverheadStudy, file: Path, c3d_unit: LengthUnit | None) -
         doubt_share(task.dominant_share, f"{file} [tasks.{name}] dominant_share")
     by_name = {each.name: each for each in study.trials}
     for trial in study.trials:
+        _doubt_push(study, trial, file)
         if trial.without is not None:
             _check_without(trial, by_name[trial.without], file)
     for bare in (True, False):
@@ -41,6 +45,14 @@ def doubt_share(share: float | None, place: str) -> None:
         reserve(
             f"{place}: {share:.0%} of the push by the dominant hand is less than by the other one; is the rest meant?"
         )
+
+
+def _doubt_push(study: OverheadStudy, trial: StudyTrial, file: Path) -> None:
+    """A warning for a push that is much of the weight of who pushes."""
+    push, weight = study.tasks[trial.task].push, study.persons[trial.person].mass * GRAVITY
+    if push > HEAVY * weight:
+        what = f"{push:g} N are {push / weight:.0%} of the weight of {trial.person}"
+        reserve(f"{file} [tasks.{trial.task}] push: {what}, much for work overhead; is it in N?")
 
 
 def _check_without(trial: StudyTrial, bare: StudyTrial, file: Path) -> None:

@@ -19,8 +19,9 @@ from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.prediction import contact_parameters
 from geocontact.standing_up.recorded_balance import strap_by_coordinates, torques_by_ground
 from geocontact.standing_up.trials import StandingTrial, StandingUpTrials
-from geocontact.trial_checks.body_checks import BUILD, STANDING
+from geocontact.trial_checks.body_checks import BUILD
 from geocontact.trial_checks.recorded import FootPlate, MovedModel, TrialInputs
+from geocontact.trial_checks.still_checks import STANDING
 from geocontact.trial_checks.table import CHECKS
 
 HINGES = (*JOINTS, *EXO_JOINTS)
@@ -50,6 +51,9 @@ sits or squats where the hip is lowest."""
 SEATED = {"ankle": 15.0, "hip": -20.0}
 """Degrees that ankle and hip have there at most, flexion being negative: shanks lean forwards, or hardly backwards, and
 the trunk is above the thighs."""
+LOWERED = 0.2
+"""m, by which the hip of who sits down or squats comes down at least, a low chair's seat being 0.4 m high; that of who
+walks moves by 0.05 m, and its knee is bent by 60 degrees in swing (Perry, Gait Analysis, 1992)."""
 
 
 def doubt_bending(
@@ -70,7 +74,7 @@ def doubt_bending(
             reserve(f"{file}: {what}: is its column empty?")
     lowest = int(np.argmin(height))
     for name, most in SEATED.items():
-        if name in angles and knee[lowest] > BENT and angles[name][lowest] > most:
+        if name in angles and np.ptp(height) > LOWERED and knee[lowest] > BENT and angles[name][lowest] > most:
             what = f"{name} is {angles[name][lowest]:.0f} degrees where the hip is lowest and the knee bent by"
             reserve(f"{file}: {what} {knee[lowest]:.0f}, flexion of {name} being negative: is its sign turned?")
 

@@ -39,6 +39,8 @@ SCANS = {"thigh": "thigh", "shank": "shank", "pelvis": "torso"}
 """What a scan of a site is of."""
 CELL = "r0c0"
 """First cell in a mat's own recording."""
+OFF, DROPPED = 5, 0.2
+"""Samples at exactly 0 N, and parts of the largest force right before or after them: what slackens does not jump."""
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
 Used = Bool[np.ndarray, " t"]
@@ -129,7 +131,24 @@ def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
         )
         remedy += " and `layout`, and give the wrench.csv that it writes"
         raise InputError(file, "", what, remedy)
-    return columns_at(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
+    found = columns_at(file, [FORWARDS if FORWARDS in names else NORMAL], role, time)[:, 0]
+    _doubt_dropped(file, time, found)
+    return found
+
+
+def _doubt_dropped(file: Path, time: Times, force: Times) -> None:
+    """A warning for a force that drops to exactly 0 N in between, from one sample to the next, and comes back."""
+    edges = np.flatnonzero(np.diff(np.r_[False, force == 0.0, False].astype(int)))
+    most = float(np.nanmax(np.abs(force), initial=0.0))
+    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+        if start < 2 or stop > len(force) - 2 or stop - start < OFF:
+            continue
+        before, after = np.abs(force[start - 2 : start]).max(), np.abs(force[stop : stop + 2]).max()
+        if max(before, after) > DROPPED * most:
+            when = f"from {time[start]:.2f} to {time[stop - 1]:.2f} s"
+            what = f"is exactly 0 N {when}, {before:.0f} N right before and {after:.0f} N right after"
+            reserve(f"{file}: the strap's force {what}: was its cell off? a strap that slackens does not jump")
+            return
 
 
 def site_shear(files: Sequence[Path], time: Times) -> Times | None:

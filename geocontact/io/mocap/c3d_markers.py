@@ -55,10 +55,8 @@ def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) 
         if before == k:
             continue
         frames = f"seen in {counts[before]} and {counts[k]} frames"
-        warnings.warn(
-            InputWarning(f"{file}: marker '{name}' occurs twice, {frames}; the one with more frames is used"),
-            stacklevel=4,
-        )
+        used = "first" if counts[k] == counts[before] else "one with more frames"
+        warnings.warn(InputWarning(f"{file}: marker '{name}' occurs twice, {frames}; the {used} is used"), stacklevel=4)
         kept[name] = k if counts[k] > counts[before] else before
     return tuple(kept), list(kept.values())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from os import fspath
@@ -11,7 +12,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.evolution import TiltedAreas
 from geocontact.io.recordings.load_cells import STRONGEST, column_in_newtons
 from geocontact.io.text.results import read_frame
@@ -26,6 +27,8 @@ COLUMNS = {
 """Column of each side."""
 
 MM, MM2 = 1e-3, 1e-6
+HALVES, PARTS = ("medial", "lateral"), 0.01
+"""Sides that are the total together, and share of the largest total that they may be off: triangles are cut exactly."""
 FEWEST = 8
 """Frames below which nothing is identified."""
 
@@ -79,10 +82,27 @@ def read_area_table(paths: Sequence[Path]) -> AreaTable:
             what = f"{what} for each of {len(offsets)} adduction offsets"
         raise InputError(file, "", what, "give areas of the same frames at each threshold and offset")
     ordered = table.sort_values([TIME, THRESHOLD, OFFSET])
+    _doubt_parts(file, ordered, sides)
     all_areas = {side: ordered[COLUMNS[side]].to_numpy(float).reshape(shape) * MM2 for side in sides}
     areas = {side: np.ascontiguousarray(each[:, :, at_none[0]]) for side, each in all_areas.items()}
     tilted = {side: TiltedAreas(np.radians(offsets), each) for side, each in all_areas.items()}
     return AreaTable(file, time, thresholds * MM, areas, tilted if len(offsets) > 1 else {})
+
+
+def _doubt_parts(file: str, table: pd.DataFrame, sides: Sequence[str]) -> None:
+    """A warning for medial and lateral areas that are not the total one together."""
+    if "medial" not in sides or "lateral" not in sides:
+        return
+    total, parts = (table[[COLUMNS[side] for side in of]].sum(axis=1).to_numpy(float) for of in (["total"], HALVES))
+    off = np.abs(parts - total)
+    at = int(np.argmax(off))
+    if off[at] > PARTS * total.max():
+        what = f"medial and lateral areas are {parts[at]:.0f} mm² together at {table[TIME].iloc[at]:g} s"
+        warnings.warn(
+            f"{file}: {what}, the total is {total[at]:.0f} mm²: is one of them of another trial, or in another unit?",
+            InputWarning,
+            stacklevel=3,
+        )
 
 
 def _read(path: Path) -> pd.DataFrame:

@@ -125,7 +125,7 @@ def test_a_sphere_out_of_the_cuff_is_told_in_every_sentence(tmp_path: Path) -> N
 def test_a_column_of_words_is_left_out_of_a_recording(tmp_path: Path) -> None:
     """The table of `shoulder simulate` itself has one, the work phase."""
     angle = np.degrees(raised(TIME))
-    file = recorded(tmp_path, phase=PHASE, **{"elevation [deg]": angle + 1.0, "force [N]": 0.2 * angle})
+    file = recorded(tmp_path, phase=PHASE, **{"elevation [deg]": angle + 1.0, "force [N]": 0.2 * angle + 0.5})
     table = gc.shoulder.compare(simulated(tmp_path), file).table().set_index(["channel", "phase"])
     assert table.loc[("elevation", "all"), "mae"] == pytest.approx(1.0, abs=1e-9)
     with pytest.raises(gc.InputError, match="column 'phase' holds words, no force"):

@@ -31,6 +31,8 @@ from geocontact.io.recordings.contact_pairs import (
 from geocontact.io.text.tables import listed, read_table
 
 FRAME = "the common frame"
+TOGETHER = 1e-9
+"""m and rad, less than a digit of a file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,6 +183,7 @@ def _pair(
     if motion is None:
         what = f"neither {pair.moving} nor {pair.fixed} moves"
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
+    _doubt_together(o.description, pair, motion)
     with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
         bodies = read_moved(asked, lambda _: [(pair.name, motion)])
@@ -199,6 +202,14 @@ def of_pair(description: Path, name: str) -> Iterator[None]:
             raise
         place = f"[[pairs]] {name} {error.place}".rstrip()
         raise InputError(description, place, error.what, error.remedy) from error
+
+
+def _doubt_together(file: Path, pair: DescribedPair, motion: Motion) -> None:
+    """A warning for two bodies that do not move against each other in any frame, each having poses of its own."""
+    turned = (motion.poses[:1].inv() * motion.poses).as_matrix() if len(motion) > 1 else np.zeros((0, 4, 4))
+    if len(turned) and np.allclose(turned, np.eye(4), rtol=0.0, atol=TOGETHER):
+        what = f"{pair.moving} and {pair.fixed} keep their place to each other in all {len(motion)} frames"
+        reserve(f"{file} [[pairs]] {pair.name}: {what}: is the motion of one that of the other?")
 
 
 def _relative(moving: Motion | None, fixed: Motion | None, time: Float[np.ndarray, " t"]) -> Motion | None:

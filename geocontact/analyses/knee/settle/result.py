@@ -14,7 +14,7 @@ r"""A contact equilibrium of a knee implant under load: `geocontact knee settle`
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -232,7 +232,12 @@ def _refuse_nowhere(i: SettleInputs, s: Settled) -> None:
         raise InputError("", "", what, "check motion, unit, `moving_body` and `region`")
     residual = min(frame.rest.residual for frame in s.frames if frame.rest is not None)
     what = f"no frame came to rest; at best {residual:.3g} N of residual force remained"
-    raise InputError("", "`free`", what, "let fewer coordinates settle, or give `springs`")
+    raise InputError(
+        "",
+        "`free`",
+        what,
+        "let fewer coordinates settle, give `springs`, or check units of `modulus` and load, and `load_point`",
+    )
 
 
 def goodness_of(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> GoodnessOfFit:
@@ -259,7 +264,10 @@ def goodness_of(i: SettleInputs, s: Settled, balance: EnergyBalance | None) -> G
         doubts.append(Doubt(line, balance.difference > UNBALANCED, balance.difference))
     if np.isfinite(s.peaks).any():
         peak = float(np.nanmax(s.peaks))
-        doubts += of_size("the largest pressure", (peak, peak), BEARING)
+        doubts += [
+            replace(each, what=f"{each.what}; check `modulus`, `poisson`, `thickness` and the load")
+            for each in of_size("the largest pressure", (peak, peak), BEARING)
+        ]
     return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area", "pressure", "energy"))
 
 

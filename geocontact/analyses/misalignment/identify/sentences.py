@@ -62,11 +62,17 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
     doubts = list(of_r2("the force that was fitted", found.r2))
     if excess.p < RARE and excess.ratio > MORE:
         what = f"the residual is {excess.ratio:.2g} times what noise within the trials would leave"
-        cause = "offsets that change from trial to trial, or something the law misses; intervals are too short"
+        cause = "offsets that change from trial to trial, a trial with another unit, gain or zero, another length that "
+        cause += "is `known`, or something the law misses"
+        if found.held:
+            worst = min(found.held, key=lambda each: each.r2)
+            cause += f" (by the others {worst.name} is described worst, R² {worst.r2:.2f})"
+        cause += "; intervals are too short"
         doubts.append(Doubt(f"{what}: {cause}", False, excess.ratio))
     bad = [f"{each.name} ({each.r2:.2f})" for each in found.held if each.r2 < 0.0]
     if bad:  # the law may be right, and the trial that was left out another one
-        doubts.append(Doubt(f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}", False))
+        what = f"R² of unused data is below 0, a constant force would do better: {', '.join(bad)}"
+        doubts.append(Doubt(f"{what}; is a unit, a sign or a zero another one there?", False))
     for each in found.intervals:
         if (known := SIZES.get(each.key)) is not None:
             ends = each.profile.lower, each.profile.upper

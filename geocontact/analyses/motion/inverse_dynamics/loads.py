@@ -170,7 +170,7 @@ def _warn_of_far_points(file: Path, load: ExternalLoad, wrench: Wrench, origin: 
     """A force whose line passes far from the body it is said to act on: exchanged plates, or noise of a small force."""
     line = farthest_line(wrench, origin)
     if line is None:
-        reserve(f"{file}: {load.plate} carries nothing during the motion")
+        reserve(f"{file}: {load.plate} carries nothing during the motion, or less than `threshold`")
     elif line.distance > REACH:
         what = f"a force of {line.force:.3g} N passes {line.distance:.3g} m from the origin of {load.body}"
         reserve(f"{file}: {load.plate}: {what}: exchanged plates, or a higher `threshold`?")
