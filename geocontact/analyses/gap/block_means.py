@@ -110,7 +110,7 @@ class Evenness:
         straight = x - mean[:, None] - slope[:, None] * (t - at[:, None])
         power = 0.5 * (np.diff(straight, axis=1) ** 2).mean(axis=1)
         about = max(AROUND // (size - 1), FEWEST) // 2 * 2 + 1
-        typical = median_filter(power, about, mode="nearest") / (1.0 - 2.0 / (9.0 * (size - 1))) ** 3
+        typical = median_filter(power, about, mode="mirror") / (1.0 - 2.0 / (9.0 * (size - 1))) ** 3
         return cls(apart - slope * lasting, np.sqrt(typical), float((straight**2).mean()), size)
 
     @property
@@ -223,7 +223,7 @@ def _line(trials: Sequence[Trial], name: str, size: int) -> bool:
         lost = np.arange(len(power)) > 0.5 * len(grid) / size
         lost &= ~at_mains(len(power), len(grid), float(grid[1] - grid[0]))
         lost[-1] = False
-        usual = median_filter(power, AROUND, mode="nearest") / np.log(2.0)
+        usual = median_filter(power, AROUND, mode="mirror") / np.log(2.0)
         if (power[lost] > (np.log(max(lost.sum() * len(trials), 1)) + SURE) * usual[lost]).any():
             return True
     return False
