@@ -3,8 +3,9 @@
 Five synthetic trials of the elbow and of the foot with a withheld effect, in which the same movement is recorded at a
 higher rate (`finer`) or a movement goes on for longer at the same rate (`longer`). CPU seconds and peak memory are of
 the whole command with tables only, in a process of its own on one thread, kernels compiled before. Slopes are those of
-`benchmarks.robustness.growth`: 1 where each further sample costs the same. Writes results/gap_growth.json, in which
-runs that were not asked for stay as they were.
+straight lines through the logarithms of sizes and of CPU seconds: 1 where all that is done is done for each sample.
+Writes results/gap_growth.json, in which runs that were not asked for stay as they were; gap_growth_before.json has
+those of commit 4b961edf, which averaged nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from benchmarks.machine import write_results
-from benchmarks.robustness.growth import run, slope
+from benchmarks.robustness.growth import run
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
@@ -182,15 +183,12 @@ def measured(system: str, growth: str, n: int, folder: Path) -> Grown:
 
 
 def table(runs: Sequence[Grown]) -> list[dict[str, object]]:
-    """For each system and growth: its runs, the slopes of CPU time and of memory."""
+    """For each system and growth: its runs, and the slope of CPU time."""
     found: list[dict[str, object]] = []
     for system, growth in dict.fromkeys((one.system, one.growth) for one in runs):
         own = sorted((one for one in runs if (one.system, one.growth) == (system, growth)), key=lambda one: one.n)
-        slopes = {}
-        if len(own) > 2:
-            sizes = [one.n for one in own]
-            slopes["cpu_slope"] = slope(sizes, [one.cpu_s for one in own])
-            slopes["memory_slope"] = slope(sizes, [one.peak_mb for one in own])
+        sizes, seconds = (np.log([getattr(one, key) for one in own]) for key in ("n", "cpu_s"))
+        slopes = {"cpu_slope": float(np.polyfit(sizes, seconds, 1)[0])} if len(own) > 1 else {}
         found.append({"system": system, "growth": growth, "runs": [asdict(one) for one in own]} | slopes)
     return found
 
@@ -202,6 +200,7 @@ def main() -> None:
     parser.add_argument("--systems", nargs="+", default=list(SUBJECTS), choices=list(SUBJECTS))
     parser.add_argument("--growths", nargs="+", default=list(GROWTHS), choices=GROWTHS)
     parser.add_argument("--sizes", nargs="+", type=int, default=list(SIZES))
+    parser.add_argument("--kept", type=Path, default=KEPT, help="the file of results, gap_growth.json")
     given = parser.parse_args()
     runs: list[Grown] = []
     for system in given.systems:
@@ -209,12 +208,12 @@ def main() -> None:
             for n in given.sizes:
                 runs.append(measured(system, growth, n, given.folder.resolve() / f"{system}_{growth}_{n}"))
                 print(json.dumps(asdict(runs[-1])), flush=True)
-    before = json.loads(KEPT.read_text(encoding="utf-8"))["figures"] if KEPT.exists() else []
+    kept = json.loads(given.kept.read_text(encoding="utf-8"))["figures"] if given.kept.exists() else []
     asked = {(one.system, one.growth, one.n) for one in runs}
-    kept = [Grown(**run) for each in before for run in each["runs"]]
-    others = [one for one in kept if (one.system, one.growth, one.n) not in asked]
+    others = [Grown(**run) for each in kept for run in each["runs"]]
+    others = [one for one in others if (one.system, one.growth, one.n) not in asked]
     packages = frozenset({"numpy", "scipy", "numba", "pandas"})
-    print(write_results("gap_growth", {"seed": SEED}, table([*others, *runs]), packages))
+    print(write_results(given.kept.stem, {"seed": SEED}, table([*others, *runs]), packages))
 
 
 if __name__ == "__main__":
