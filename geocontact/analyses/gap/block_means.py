@@ -117,7 +117,7 @@ class Evenness:
     def of_means(self) -> Float[np.ndarray, " b"]:
         """`bent`, in units of what white noise makes of it."""
         usual = self.noise * np.sqrt(HALVES / self.size)
-        return np.abs(np.divide(self.bent, usual, out=np.zeros_like(usual), where=usual > 0.0))
+        return np.asarray(np.abs(np.divide(self.bent, usual, out=np.zeros_like(usual), where=usual > 0.0)))
 
 
 def averaged(case: GapCase, outputs: Sequence[str], inputs: Sequence[str]) -> tuple[GapCase, int]:
@@ -206,7 +206,7 @@ def _recorder_shows(trials: Sequence[Trial], name: str) -> bool:
     usual = typical_noise(moves)
     if not usual > np.sqrt(2.0) * step:
         return True
-    return float((moves == 0.0).mean()) > 2.0 * step / (np.sqrt(2.0 * np.pi) * usual) + SLIGHT
+    return bool((moves == 0.0).mean() > 2.0 * step / (np.sqrt(2.0 * np.pi) * usual) + SLIGHT)
 
 
 def _line(trials: Sequence[Trial], name: str, size: int) -> bool:
