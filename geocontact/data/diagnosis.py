@@ -325,7 +325,8 @@ class Diagnosis:
     to record so that it can be identified; None where nothing is in question, or nothing that is simulated tells
     enough. `budget` is what the squared error on held-out trials consists of, by channel and part: `sensor`, `inputs`,
     `variation`, `effects`, `unexplained`; `detected` the effects that are sure, named or not;
-    `unmodelled` what no effect is, in words; `regions` where the base model misses something.
+    `unmodelled` what no effect is, in words; `regions` where the base model misses something;
+    `thinned` how long trials were averaged and left out.
     """
 
     case: str
@@ -351,6 +352,7 @@ class Diagnosis:
     detected: tuple[Detected, ...] = ()
     unmodelled: tuple[Unmodelled, ...] = ()
     regions: tuple[Region, ...] = ()
+    thinned: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists, strings, numbers and None, ready for JSON."""
@@ -400,6 +402,7 @@ class Diagnosis:
                 for f in self.faults
             ],
             "remarks": list(self.remarks),
+            "thinned": list(self.thinned),
             "seconds": self.seconds,
             "version": self.version,
         }

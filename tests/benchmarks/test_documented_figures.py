@@ -801,6 +801,24 @@ def test_speed_of_a_diagnosis() -> None:
     assert f"median is {now['median_cpu_s']:.2f} s" in text and f"the most {now['most_cpu_s']:.2f} s" in text
 
 
+def test_growth_of_a_diagnosis() -> None:
+    """What the page has of the elbow's movement at higher rates, and the slope of logarithms derived again."""
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    took: dict[str, dict[int, float]] = {}
+    for name in ("gap_growth_before", "gap_growth"):
+        (own,) = (one for one in results(name)["figures"] if (one["system"], one["growth"]) == ("elbow", "finer"))
+        took[name] = {run["n"]: run["cpu_s"] for run in own["runs"]}
+        x, y = np.log(np.array([*took[name].items()])).T
+        slope = ((x - x.mean()) @ (y - y.mean())) / ((x - x.mean()) @ (x - x.mean()))
+        assert own["cpu_slope"] == pytest.approx(slope, abs=1e-9)
+    before, now = (
+        [f"{took[name][n]:.0f}" for n in sizes]
+        for name, sizes in (("gap_growth_before", (600, 2000, 10000)), ("gap_growth", (2000, 10000, 100000)))
+    )
+    assert f"took {', '.join(before)} s; averaged over blocks, 2000, 10000, 100000 take {', '.join(now)} s" in text
+    assert took["gap_growth"][100_000] < 1.5 * took["gap_growth"][2_000]
+
+
 def test_growth_of_commands() -> None:
     """The table as the JSON has it, its slopes derived again; what passes in parts grows little; no page above 2 MB."""
     found = {one["command"]: one for one in results("growth")["figures"]}

@@ -50,7 +50,7 @@ KEYS = [
     "regions",
     "parameters",
 ]
-KEYS += ["partial", "next_experiment", "faults", "remarks", "seconds", "version"]
+KEYS += ["partial", "next_experiment", "faults", "remarks", "thinned", "seconds", "version"]
 CHANNEL = ["rmse_before", "rmse_after", "noise_floor", "reduction", "ci95", "unexplained"]
 
 

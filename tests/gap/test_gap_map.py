@@ -15,6 +15,7 @@ from geocontact.gap.localise.gap_map import (
     _least,
     _placed,
     energies,
+    family_wise,
     in_order,
     load_outputs,
     shortest,
@@ -175,3 +176,23 @@ def test_the_load_is_forces_else_moments_and_no_angle(units: dict[str, str], row
     base = system_of(elbow_case(duration=2.0))
     system = replace(base, balance=replace(base.balance, outputs=tuple(units)), units=units)
     assert load_outputs(system) == rows
+
+
+@pytest.mark.parametrize(("blocks", "columns"), [(7, 3), (30, 31), (40, 400)])
+def test_family_wise_p_counts_flips_that_reach_as_far(blocks: int, columns: int) -> None:
+    """Against all flips and columns at once, counted one by one; an empty column is reached by every flip."""
+    rng = np.random.default_rng(columns)
+    table = rng.standard_normal((blocks, columns))
+    table[:, 0] += 3.0
+    table[:, -1] = 0.0
+    spread = rng.uniform(1.0, 1.5, columns)
+    parts = [table[:, : columns // 2], table[:, columns // 2 :]]
+    found = np.concatenate(family_wise(parts, spread))
+    size = np.linalg.norm(table, axis=0)
+    scaled = np.divide(table, size, out=np.zeros_like(table), where=size > 0.0)
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (2000, blocks))
+    largest = np.abs(signs @ scaled).max(axis=1)
+    reached = np.abs(scaled.sum(axis=0)) / spread
+    by_hand = [(1 + sum(one >= each - 1e-12 for one in largest)) / 2001 for each in reached]
+    np.testing.assert_allclose(found, by_hand, rtol=0, atol=1e-12)
+    assert found[-1] == 1.0 and found[0] < 0.2

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from geocontact.analyses.gap.thinning import thinned_and_said
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
 from geocontact.data.parameter import Parameter
@@ -19,9 +20,12 @@ Column = np.ndarray
 Torque = Callable[[Column, Column], Column]
 
 
-def joint_case(torque: Torque) -> GapCase:
-    """An elastic joint whose torque has 0.1 N m of noise, which is stated; `torque` of time and angle."""
-    rng, time, trials = np.random.default_rng(5), 0.02 * np.arange(150), []
+def joint_case(torque: Torque, rate: float = 50.0) -> GapCase:
+    """An elastic joint whose torque has 0.1 N m of noise, which is stated; `torque` of time and angle.
+
+    Three seconds of `rate` samples a second.
+    """
+    rng, time, trials = np.random.default_rng(5), np.arange(round(3.0 * rate)) / rate, []
     for k in range(5):
         rate = 0.8 + 0.25 * k
         angle = 0.25 * np.sin(2.0 * np.pi * rate * time + k) + 0.1 * np.sin(2.0 * np.pi * 0.37 * rate * time)
@@ -77,6 +81,38 @@ def test_they_are_named_at_their_size(
     assert d["budget"]["torque"]["effects"]["share"] > 0.95
     (first, *_) = d["detected"]
     assert first["effect"] == effect and first["share"] > 0.95 and first["channel"] == "torque"
+
+
+def answered_from_means(torque: Torque, rate: float) -> tuple[dict[str, object], tuple[str, ...]]:
+    """Of a quick recording, as the command has it; and what is said of its thinning."""
+    case = joint_case(torque, rate)
+    case, said = thinned_and_said(case, system_of(case))
+    return diagnose(case, system_of(case)).diagnosis.as_dict(), said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("torque", "rate", "blocks", "effect", "parameter", "size", "near"),
+    [
+        (late, 600.0, 2, "clock_slip", "clock_slip.once.delay", 0.09, 0.005),
+        (play, 1000.0, 16, "play", "play.angle.width", 0.08, 0.004),
+    ],
+)
+def test_they_are_named_from_a_quick_recording(
+    elsewhere: Elsewhere,
+    torque: Torque,
+    rate: float,
+    blocks: int,
+    effect: str,
+    parameter: str,
+    size: float,
+    near: float,
+) -> None:
+    """Blocks are as short as the jump of a slip and the corners of a play want them."""
+    d, said = elsewhere(answered_from_means, torque, rate)
+    assert f"over blocks of {blocks} (" in said[0]
+    assert (d["verdict"], d["effects"]) == ("explained", [effect]), d["remarks"]
+    assert d["parameters"][parameter]["value"] == pytest.approx(size, abs=near)
 
 
 @pytest.mark.slow

@@ -54,11 +54,12 @@ def proposal_words(one: NextExperiment, verdict: str) -> str:
 
 @dataclass(frozen=True)
 class CaseWithModel:
-    """A case, the base model that it names, and the folder that it was read from."""
+    """A case, the base model that it names, the folder that it was read from, and in words how it was thinned."""
 
     folder: Path
     case: GapCase
     system: System
+    thinned: tuple[str, ...] = ()
 
 
 def read_case(folder: Path, run_simulator: bool) -> CaseWithModel:

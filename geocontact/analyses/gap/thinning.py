@@ -1,4 +1,7 @@
-"""Long recordings: outputs are used in short stretches that lie evenly over every trial.
+"""Long recordings: quick ones are averaged over blocks of time; of longer ones, outputs are used in short stretches.
+
+Samples that show nothing but noise beside their neighbours are averaged, inputs and outputs alike (`block_means`). Of
+what is too long all the same outputs are used in stretches that lie evenly over every trial.
 
 Cost grows with the samples of the outputs, what they tell hardly does: noise of a prediction falls with their square
 root, and a limit of detection below what trial-to-trial variation leaves open does nobody good. Inputs stay whole, so
@@ -20,9 +23,13 @@ import numpy as np
 from jaxtyping import Bool
 
 from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.gap.block_means import averaged
 from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
+from geocontact.gap.case.noise_sources import typical_step
+from geocontact.systems.catalogue import system_of
 
 ROWS = 8_400
 """Measured samples of all outputs and trials that a diagnosis uses."""
@@ -34,16 +41,34 @@ GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 def read_thinned(folder: Path, run_simulator: bool) -> CaseWithModel:
     """The case in a folder with its base model, thinned where it is long, which is said (`analyses.gap.case`)."""
     given = read_case(folder, run_simulator)
-    outputs = given.system.outputs
-    case = thinned(given.case, outputs)
-    if case is given.case:
-        return given
-    rows, used = measured_rows(given.case, outputs), measured_rows(case, outputs)
-    if used == rows:
-        return given
-    where = f"in stretches of {STRETCH} that lie evenly over every trial"
-    reserve(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
-    return replace(given, case=case)
+    case, said = thinned_and_said(given.case, given.system)
+    for line in said:
+        reserve(line)
+    return replace(given, case=case, system=system_of(case), thinned=said) if said else given
+
+
+def thinned_and_said(case: GapCase, system: System) -> tuple[GapCase, tuple[str, ...]]:
+    """The case as it is used, and in words what was averaged and left out; nothing of one that is short."""
+    outputs = system.outputs
+    rows = measured_rows(case, outputs)
+    if rows <= ROWS:
+        return case, ()
+    said = []
+    case, size = averaged(case, outputs, system.inputs)
+    if size > 1:
+        means, lasting = measured_rows(case, outputs), 1e3 * typical_step(case)
+        said.append(
+            f"{rows} samples of the outputs are averaged to {means}, over blocks of {size} ({lasting:.3g} ms), within "
+            "which all channels move evenly; all figures are of means"
+        )
+        rows = means
+    fewer = thinned(case, outputs)
+    used = measured_rows(fewer, outputs)
+    if used < rows:
+        where = f"in stretches of {STRETCH} that lie evenly over every trial"
+        said.append(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
+        case = fewer
+    return case, tuple(said)
 
 
 def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:

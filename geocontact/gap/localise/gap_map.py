@@ -314,9 +314,13 @@ def family_wise(
     size = np.sqrt((together**2).sum(axis=0))
     size[size == 0.0] = np.inf
     signs = np.random.default_rng(0).choice([-1.0, 1.0], (DRAWS, len(together)))
-    largest = np.abs(signs @ (together / size)).max(axis=1)
-    statistic = np.abs((together / size).sum(axis=0)) / spread
-    p_values = (1.0 + (largest[:, None] >= statistic).sum(axis=0)) / (1.0 + DRAWS)
+    together = together / size
+    largest = np.zeros(DRAWS)
+    for begin in range(0, together.shape[1], len(together)):  # a part at a time stays in the processor's cache
+        flipped = signs @ together[:, begin : begin + len(together)]
+        largest = np.maximum(largest, np.maximum(flipped.max(axis=1), -flipped.min(axis=1)))
+    statistic = np.abs(together.sum(axis=0)) / spread
+    p_values = (1.0 + DRAWS - np.searchsorted(np.sort(largest), statistic)) / (1.0 + DRAWS)
     return np.split(p_values, np.cumsum([table.shape[1] for table in tables])[:-1])
 
 

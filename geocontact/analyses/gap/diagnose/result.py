@@ -141,6 +141,7 @@ def run(given: CaseWithModel, o: DiagnoseOptions) -> DiagnoseResult:
         reserve(line)
     judge(GoodnessOfFit(tuple(Doubt(line, False) for line in gains), ("gains of the trials",)), warned=True)
     findings = _held_to(found)
+    findings = replace(findings, diagnosis=replace(findings.diagnosis, thinned=given.thinned))
     note(
         "diagnosis",
         {

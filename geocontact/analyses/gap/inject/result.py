@@ -40,13 +40,14 @@ from geocontact.analyses.gap.diagnose.result import read as read_diagnosis
 from geocontact.analyses.gap.diagnose.result import run as run_diagnosis
 from geocontact.analyses.gap.inject.injection import answer, parameter_rows, planted, sentences
 from geocontact.analyses.gap.inject.options import InjectOptions
-from geocontact.analyses.gap.thinning import thinned
+from geocontact.analyses.gap.thinning import thinned_and_said
 from geocontact.chain.effect import Candidate
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.errors import InputError
 from geocontact.gap.diagnose import diagnose
 from geocontact.gap.inject import Injected, Judgement, judged
 from geocontact.io.cases.gap_case_writer import write_trials
+from geocontact.systems.catalogue import system_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -157,7 +158,8 @@ def run(given: CaseWithModel, o: InjectOptions) -> InjectResult:
     """
     one, made = planted(given, o)
     with listener().stages("the case without it") as at:
-        before = diagnose(thinned(given.case, given.system.outputs), given.system, at=at).diagnosis
+        used, _ = thinned_and_said(given.case, given.system)
+        before = diagnose(used, system_of(used), at=at).diagnosis
     scratch = Scratch()
     shutil.copytree(given.folder, scratch.folder / CASE)
     write_trials(made.case, scratch.folder / CASE)
