@@ -89,10 +89,10 @@ def merged(described: ExoskeletonFile, fit: ExoskeletonDynamics, level: float) -
 
 
 def _left_out(described: ExoskeletonFile, fit: ExoskeletonDynamics) -> list[str]:
-    """Described mass centres and inertias, each beside the identified one where the description has all masses."""
+    """Described mass centres and inertias, each beside the identified one where all masses are described."""
     names = [name for name in described.numbers if name in BODY_NUMBERS]
-    device, found = fit.subject.device, {}
-    if names and {f"{part}_mass" for part in BODIES} <= described.numbers.keys():
+    device, found = fit.subject.device, dict[str, float]()
+    if names and {f"{part}_mass" for part in BODIES} <= device.stated.keys():
         values = {name: float(value) for name, value in zip(fit.names, fit.values, strict=True)}
         try:
             parts = identified_device(values, part_lengths(fit.subject), device.masses).parts
