@@ -305,7 +305,8 @@ def _shown(value: object) -> str:
 
 
 def _stated(table: Document) -> dict[str, Any]:
-    return {name: getattr(table, name) for name in table.model_fields_set}
+    """In the order of the declared keys; `model_fields_set` has one of its own in every process."""
+    return {name: getattr(table, name) for name in type(table).model_fields if name in table.model_fields_set}
 
 
 def _word(value: object) -> object:

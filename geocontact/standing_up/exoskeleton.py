@@ -2,9 +2,10 @@
 
 Both legs are one planar chain, here as for the person: masses of the exoskeleton's bodies are those of both sides. The
 numbers of a strap at thigh or shank are those of one leg, as a mat on one leg sees it; two of them act in parallel
-between the chains. That is the only place where a 2 enters besides the masses; the pelvis has one module. All numbers
-of the exoskeleton are invented. A hinge of the exoskeleton lies where the person's does, but for the knee, which is
-higher by `WornDevice.knee_above`.
+between the chains. That is the only place where a 2 enters besides the masses; the pelvis has one module. Numbers of
+the exoskeleton are those of `Subject.device`; those of the shipped one are invented but for the straps' dashpots. A
+hinge of an exoskeleton that is set to the person lies where the person's does, but for the knee, which is higher by
+`WornDevice.knee_above`; one of own lengths has its knee and hip where these lengths put them.
 
 As in the study, where nothing is known yet of the forces between the two: inverse dynamics of this chain has the
 torques that person and exoskeleton have together at ankle, knee and hip.

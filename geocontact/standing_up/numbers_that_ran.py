@@ -20,12 +20,11 @@ from geocontact.standing_up.phase import PhaseProblem, PhaseSizes
 from geocontact.standing_up.standing_model import GroundLaw, StandingModel
 from geocontact.standing_up.strap_sites import DAMPING, TURNING_DAMPING, ContactParameter, StrapSite
 from geocontact.standing_up.trials import SHIPPED, StandingTrial
-from geocontact.standing_up.worn_device import SHIFT, DeviceMasses, WornDevice
+from geocontact.standing_up.worn_device import SHIPPED_DEVICE, DeviceMasses, WornDevice
 
 DE_LEVA = "both sides; fractions of mass and height by de Leva (1996), or the person's own"
 OF_BOTH = "of both sides"
 DESCRIBED = ", by the exoskeleton's description"
-BODY_NUMBERS = ("centre", "ahead", "inertia")
 IDENTIFIED = ", by sit-to-stand device"
 WEIGHED = "as the study has it"
 FROM_FILE = "as the file of parameters gives it"
@@ -58,8 +57,9 @@ def model_numbers(model: StandingModel) -> list[Ran]:
     if of is None:
         raise ValueError("this model does not say what it was built of")
     rows = [row for body in of.chain.bodies if body.mass > 0.0 for row in _body(body, of.device)]
-    rows += [*joint_numbers(of.chain), *_ground(of.ground)]
-    return rows + [row for site in of.sites for row in _strap(site)]
+    device = of.device or SHIPPED_DEVICE
+    rows += [*joint_numbers(of.chain, device), *_ground(of.ground)]
+    return rows + [row for site in of.sites for row in _strap(site, device)]
 
 
 def parameter_numbers(
@@ -154,9 +154,8 @@ def search_numbers(motions: Sequence[CollocatedMotion], trials: Sequence[Standin
 
 def _body(body: Body, device: WornDevice | None) -> Iterator[Ran]:
     """Rows of one body; masses that differ from the shipped ones are the study's."""
-    source: Source = "derived"
     mass: tuple[Source, str] = ("derived", DE_LEVA)
-    by = ""
+    kinds: dict[str, tuple[Source, str]] = dict.fromkeys(("ahead", "centre", "inertia"), ("derived", ""))
     if device is not None and (body.name == "foot" or body.name.startswith("exo_")):
         part = body.name.removeprefix("exo_").replace("foot", "foot_plate")
         weighed = getattr(device.masses, part) != getattr(DeviceMasses(), part)
@@ -164,27 +163,56 @@ def _body(body: Body, device: WornDevice | None) -> Iterator[Ran]:
             mass = ("derived", f"{DE_LEVA}; with foot plates, {WEIGHED if weighed else 'which are invented'}")
         else:
             mass = ("derived", f"of both sides, {WEIGHED}") if weighed else ("invented", OF_BOTH)
-            source, by = ("derived", IDENTIFIED) if device.identified else ("invented", "")
-            if not device.identified and any(f"{part}_{kind}" in device.stated for kind in BODY_NUMBERS):
-                source, by = "derived", f"{DESCRIBED}, else of a uniform rod"
+            kinds = {kind: _described(device, f"{part}_{kind}", ("invented", "")) for kind in kinds}
+            if device.identified:
+                kinds = dict.fromkeys(kinds, ("derived", IDENTIFIED))
         if (stated := device.stated.get(f"{part}_mass")) is not None and stated.value == getattr(device.masses, part):
             whose = f"{DE_LEVA}; with foot plates" if body.name == "foot" else OF_BOTH
-            note = f"{whose}{DESCRIBED}: {stated.source}{stated.note and f', {stated.note}'}"
-            mass = ("derived" if body.name == "foot" else stated.source, note)
+            found, note = _described(device, f"{part}_mass", ("derived", ""))
+            mass = ("derived" if body.name == "foot" else found, f"{whose}{note}")
     name = f"body {body.name}"
     yield Ran(f"{name} mass", body.mass, "kg", *mass)
-    for axis, value in zip("xy", body.centre[:2], strict=True):
+    for axis, value, (source, by) in zip("xy", body.centre[:2], (kinds["ahead"], kinds["centre"]), strict=True):
         yield Ran(f"{name} centre_{axis}", float(value), "m", source, f"mass centre in the body's frame{by}")
+    source, by = kinds["inertia"]
     yield Ran(f"{name} inertia", float(body.inertia[2, 2]), "kg m^2", source, f"about z through the mass centre{by}")
 
 
-def joint_numbers(chain: Multibody) -> Iterator[Ran]:
+def _described(device: WornDevice, name: str, shipped: tuple[Source, str]) -> tuple[Source, str]:
+    """Source of a number of a description, and what is behind a note on it; `shipped` where it is not described."""
+    if (stated := device.stated.get(name)) is None:
+        return shipped
+    return stated.source, f"{DESCRIBED}: {stated.source}{stated.note and f', {stated.note}'}"
+
+
+def _placed(device: WornDevice, length: str) -> tuple[Source, str]:
+    """Where the place of the exoskeleton's hinge at the end of a part of this length is from.
+
+    Its shank is the person's and `knee_above`, unless it is described; its thigh what then is left of the person's.
+    """
+    if length in device.stated:
+        return _described(device, length, ("invented", ""))
+    return _set_to(device, "shank_length" if "shank_length" in device.stated else "knee_above")
+
+
+def _set_to(device: WornDevice, name: str) -> tuple[Source, str]:
+    """Where a place is from that follows from a number of the exoskeleton and the person's lengths."""
+    if name not in device.stated:
+        return "invented", ""
+    return "derived", f"{_described(device, name, ('derived', ''))[1]}; set to the person"
+
+
+def joint_numbers(chain: Multibody, device: WornDevice) -> Iterator[Ran]:
     """Places of the joints between bodies with mass, and gravity."""
+    ends = {"exo_knee": "shank_length", "exo_hip": "thigh_length"}
     for joint in chain.joints:
         if joint.parent in {body.name for body in chain.bodies if body.mass > 0.0}:
-            source: Source = "invented" if joint.child.startswith("exo_") else "derived"
             for axis, value in zip("xy", joint.parent_offset.translation[:2], strict=True):
-                yield Ran(f"joint {joint.name} {axis}", float(value), "m", source, f"in the frame of {joint.parent}")
+                source: tuple[Source, str] = ("invented" if joint.child.startswith("exo_") else "derived", "")
+                if axis == "y" and joint.name in ends:
+                    source = _placed(device, ends[joint.name])
+                note = f"in the frame of {joint.parent}{source[1]}"
+                yield Ran(f"joint {joint.name} {axis}", float(value), "m", source[0], note)
     for axis, value in zip("xy", chain.gravity[:2], strict=True):
         yield Ran(f"gravity_{axis}", float(value), "m/s^2", "derived", "standard gravity")
 
@@ -200,7 +228,7 @@ def _ground(law: GroundLaw) -> Iterator[Ran]:
         yield Ran(f"ground {name}", float(value), unit, "invented", note)
 
 
-def _strap(site: StrapSite) -> Iterator[Ran]:
+def _strap(site: StrapSite, device: WornDevice) -> Iterator[Ran]:
     name = f"strap at the {site.name}"
     yield Ran(f"{name} count", float(site.count), "-", "derived", "in parallel between the chains")
     dashpots = (
@@ -209,7 +237,10 @@ def _strap(site: StrapSite) -> Iterator[Ran]:
     )
     for what, unit, paper, note in dashpots:
         value = float(getattr(site, what))
-        source: Source = "paper" if value == paper else "derived"
-        yield Ran(f"{name} {what}", value, unit, source, note if value == paper else f"{note}, as the study has it")
-    own: Source = "invented" if site.above in (0.0, SHIFT) else "derived"
-    yield Ran(f"{name} above", site.above, "m", own, "the exoskeleton's hinge over the person's")
+        source: tuple[Source, str] = ("paper", "") if value == paper else ("derived", ", as the study has it")
+        if (stated := device.stated.get(f"strap_{what}")) is not None and stated.value == value:
+            source = _described(device, f"strap_{what}", source)
+        yield Ran(f"{name} {what}", value, unit, source[0], f"{note}{source[1]}")
+    by = {"shank": "", "thigh": "knee_above", "trunk": "thigh_length"}[site.person]
+    source = _set_to(device, "shank_length" if by == "knee_above" and "shank_length" in device.stated else by)
+    yield Ran(f"{name} above", site.above, "m", source[0], f"the exoskeleton's hinge over the person's{source[1]}")

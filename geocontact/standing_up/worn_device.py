@@ -28,6 +28,13 @@ SHIFT, HEIGHT = 0.01, 0.25
 NONE = (None, None, None)
 PARTS = ("exo_shank", "exo_thigh", "exo_module")
 """Bodies from the foot upwards; the hinges exo_ankle, exo_knee and exo_hip turn them."""
+TURNED_BY = ("ankle", "knee", "hip")
+FRICTION_NAMES = {
+    f"{hinge}_{key}": f"exo_{hinge} {kind} friction"
+    for hinge in TURNED_BY
+    for key, kind in (("viscous", "viscous"), ("coulomb", "Coulomb"))
+}
+"""Dynamic parameters of friction by the names of a description."""
 TURNS = float(np.radians(1.0))
 """Rate at which Coulomb friction is at three quarters of its size [rad/s]: tanh instead of a step."""
 GYRATION = 0.1
@@ -118,9 +125,16 @@ class WornDevice:
         return bool(self.parts)
 
     @property
-    def rubs(self) -> bool:
-        """Whether its friction is known."""
-        return self.identified or any(self.viscous) or any(self.coulomb)
+    def without_friction(self) -> tuple[str, ...]:
+        """Hinges of whose friction nothing is known, which turn without any."""
+        known = [
+            self.identified
+            or viscous != 0.0
+            or coulomb != 0.0
+            or not {f"{n}_viscous", f"{n}_coulomb"}.isdisjoint(self.stated)
+            for n, viscous, coulomb in zip(TURNED_BY, self.viscous, self.coulomb, strict=True)
+        ]
+        return tuple(f"exo_{name}" for name, there in zip(TURNED_BY, known, strict=True) if not there)
 
     def bodies(self, lengths: tuple[float, float, float]) -> tuple[DevicePart, ...]:
         """Bodies of these lengths [m]."""
@@ -167,7 +181,7 @@ SHIPPED_NUMBERS: Mapping[str, Number] = {
     **{
         f"{hinge}_{kind}": Number(0.0, BUILT, "the study gives torques of its hinges, friction included")
         for kind in ("viscous", "coulomb")
-        for hinge in ("ankle", "knee", "hip")
+        for hinge in TURNED_BY
     },
 }
 """Numbers of the shipped exoskeleton; the study of Serrancoli et al. (2019) prints the straps' dashpots alone."""
@@ -176,11 +190,11 @@ SHIPPED_NUMBERS: Mapping[str, Number] = {
 def device_of(numbers: Mapping[str, Number]) -> WornDevice:
     """The shipped exoskeleton with these numbers in place of its own."""
     at = {name: each.value for name, each in {**SHIPPED_NUMBERS, **numbers}.items()}
-    parts, hinges = ("shank", "thigh", "module"), ("ankle", "knee", "hip")
+    parts = ("shank", "thigh", "module")
     return WornDevice(
         DeviceMasses(**{name: at[f"{name}_mass"] for name in vars(DeviceMasses())}),
-        viscous=tuple(at[f"{hinge}_viscous"] for hinge in hinges),
-        coulomb=tuple(at[f"{hinge}_coulomb"] for hinge in hinges),
+        viscous=tuple(at[f"{hinge}_viscous"] for hinge in TURNED_BY),
+        coulomb=tuple(at[f"{hinge}_coulomb"] for hinge in TURNED_BY),
         knee_above=at["knee_above"],
         lengths=(at.get("shank_length"), at.get("thigh_length")),
         module_height=at["module_height"],
@@ -208,7 +222,7 @@ def identified_device(
     lengths
         Lengths of the parts that they were found with [m].
     described
-        Exoskeleton that has the lengths and sources.
+        Exoskeleton that has the lengths and sources; friction that it states counts before the identified one.
     """
 
     def of(kind: str) -> Float[np.ndarray, " 3"]:
@@ -228,10 +242,11 @@ def identified_device(
         if more > RAISED * whole:
             raise ValueError(f"{part} has no inertia left about its mass centre ({own:.3g} kg m²)")
     parts = zip(taken, along, across, inertia + raised, strict=True)
-    hinges = [part.replace("shank", "ankle").replace("thigh", "knee").replace("module", "hip") for part in PARTS]
-    viscous, coulomb = (
-        tuple(values[f"{hinge} {kind} friction"] for hinge in hinges) for kind in ("viscous", "Coulomb")
-    )
+    rubbing = {
+        name: described.stated[name].value if name in described.stated else values[parameter]
+        for name, parameter in FRICTION_NAMES.items()
+    }
+    viscous, coulomb = (tuple(rubbing[f"{hinge}_{kind}"] for hinge in TURNED_BY) for kind in ("viscous", "coulomb"))
     made = tuple(DevicePart(*(float(each) for each in row)) for row in parts)
     more = tuple(float(each) for each in raised)
     return replace(described, masses=masses, parts=made, viscous=viscous, coulomb=coulomb, raised=more)

@@ -218,3 +218,10 @@ def test_what_further_keys_cannot_be(content: dict[str, object], line: str) -> N
     with pytest.raises(InputError) as error:
         checked(Path("study.toml"), Loose, {**WHOLE, **content})
     assert str(error.value).removeprefix("study.toml").lstrip(": ").startswith(line)
+
+
+def test_tables_of_some_keys_are_in_the_declared_order(tmp_path: Path) -> None:
+    """Neither in that of the file nor in one that differs between processes."""
+    names = [f"k{number}" for number in range(12)]
+    kind = Annotated[dict[str, float], Some({name: Annotated[float, Field(gt=0.0)] for name in names})]
+    assert list(checked(tmp_path, kind, dict.fromkeys(reversed(names[2:]), 1.0))) == names[2:]

@@ -29,6 +29,16 @@ from geocontact.standing_up.worn_device import DeviceMasses, WornDevice
 from tests.standing_up.from_table import Chains, belief
 
 SUBJECT = Subject(81.0, 1.69, WornDevice(DeviceMasses(foot_plate=1.3, thigh=4.7)))
+ODD = WornDevice(
+    SUBJECT.device.masses,
+    knee_above=0.017,
+    along=(0.21, 0.17, 0.11),
+    across=(0.012, -0.023, -0.041),
+    inertias=(0.07, 0.06, 0.043),
+)
+"""Set to the person by another height, with own mass centres and inertias."""
+OWN = replace(ODD, lengths=(0.433, 0.397), module_height=0.31)
+"""Of own lengths, which are not the person's."""
 FOOT = [5e6, -0.04, 0.13, 0.09, 0.03, 1.2, 1.1]
 STRAPS = [4e3, 2.2e3, 31.0, 0.21, 3.1e3, 1.7e3, 19.0, 0.26, 5.3e3, 2.9e3, 23.0, 0.08]
 
@@ -55,11 +65,14 @@ def told(*rows: Ran) -> dict[str, float]:
     return found
 
 
-@pytest.mark.parametrize("worn", [False, True])
-def test_the_table_alone_moves_as_the_equations_do(unusual: None, worn: bool) -> None:
+@pytest.mark.parametrize("device", [None, SUBJECT.device, ODD, OWN])
+def test_the_table_alone_moves_as_the_equations_do(unusual: None, device: WornDevice | None) -> None:
     """Forces, straps, energies and the whole balance at anything, with straps at all sites that are not alike."""
-    sites = [replace(site, damping=7.0 + k, turning_damping=0.2 + k) for k, site in enumerate(STRAP_SITES)]
-    model = strapped(SUBJECT, sites) if worn else feet_on_ground(SUBJECT)
+    above, worn = (0.017, 0.004, -0.021), device is not None
+    sites = [
+        replace(site, damping=7.0 + k, turning_damping=0.2 + k, above=above[k]) for k, site in enumerate(STRAP_SITES)
+    ]
+    model = strapped(replace(SUBJECT, device=device), sites) if device is not None else feet_on_ground(SUBJECT)
     e, n, p = model.equations, model.count, values(model)
     rng = np.random.default_rng(5)
     on_ground = rng.normal(size=4), 0.08 + 0.003 * rng.normal(size=4), 0.02 * rng.normal(size=4)

@@ -74,6 +74,7 @@ def doubt_bending(
             reserve(f"{file}: {what}: is its column empty?")
     lowest = int(np.argmin(height))
     for name, most in SEATED.items():
+        # one leg in stance has no hip
         if name in angles and np.ptp(height) > LOWERED and knee[lowest] > BENT and angles[name][lowest] > most:
             what = f"{name} is {angles[name][lowest]:.0f} degrees where the hip is lowest and the knee bent by"
             reserve(f"{file}: {what} {knee[lowest]:.0f}, flexion of {name} being negative: is its sign turned?")

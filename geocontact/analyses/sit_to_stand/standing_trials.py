@@ -32,7 +32,7 @@ from geocontact.analyses.sit_to_stand.trial_recordings import (
     wrench_at,
 )
 from geocontact.analyses.sit_to_stand.worn_exoskeleton import worn_device, worn_sites
-from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, joint_torques, person_of
+from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, doubt_friction, joint_torques, person_of
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -201,6 +201,7 @@ def channels_of(
         )
     else:
         _doubt_unused(files)
+        doubt_friction(files.name, subject.device, "torque is not among tracks")
     if "strap" in tracks:
         strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
         shear = site_shear(files.strap, time)

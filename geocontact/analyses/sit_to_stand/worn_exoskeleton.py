@@ -1,7 +1,8 @@
 """The exoskeleton of a study: as described in a file, by its own motion where that identified it, else the shipped one.
 
 What is said twice must agree: masses of the study and of the description, dashpots of the straps, lengths to which the
-exoskeleton was set while it moved alone and those that it has on the person.
+exoskeleton was set while it moved alone and those that it has on the person, friction and bodies as described and as
+identified.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from geocontact.standing_up.exoskeleton import hinges_above, part_lengths
 from geocontact.standing_up.exoskeleton_torque import UNITS, parameter_names
 from geocontact.standing_up.strap_sites import StrapSite, strap_sites
 from geocontact.standing_up.worn_device import (
+    FRICTION_NAMES,
     PARTS,
     SHIPPED_NUMBERS,
     DeviceMasses,
@@ -98,7 +100,7 @@ def _masses(study: StandingStudy, file: Path, described: WornDevice, source: Pat
     """Masses of study and description, which must not contradict each other."""
     for name, mass in study.masses.items():
         other = described.stated.get(f"{name}_mass")
-        if other is not None and abs(mass / other.value - 1.0) > SAME:
+        if other is not None and _differ(mass, other.value):
             what = f"{mass:g} kg, and {other.value:g} kg in {source.name}"
             raise InputError(file, f"[masses] {name}", what, "weigh it, and keep one of them")
     return replace(described.masses, **study.masses)
@@ -131,11 +133,13 @@ def _moved_alone(
             f"{file.name}: no mass of {', '.join(lacking)}: invented ones are used, which no motion without a person "
             "identifies; weigh the parts, and write [masses], or NAME_mass in a description of the exoskeleton"
         )
+    _confront_friction(described, found, source)
     try:
         device = identified_device(found.values, lengths, described.masses, described)
     except ValueError as error:
         remedy = "weigh the parts, and check their masses: they are of both sides"
         raise InputError(source, "", str(error), remedy) from error
+    _confront_bodies(device, source)
     for part, more in zip(PARTS, device.raised, strict=True):
         if more > 0.0:
             reserve(
@@ -143,6 +147,50 @@ def _moved_alone(
                 "faster motions without a person, or its true mass, identify it better"
             )
     return device
+
+
+def _confront_friction(described: WornDevice, found: IdentifiedParameters, source: Path) -> None:
+    """InputError for friction that is described otherwise than identified, and for one that would drive its hinge.
+
+    What noise makes of no friction is less than 0; `sit-to-stand device` describes it as 0.
+    """
+    for number, name in FRICTION_NAMES.items():
+        value, stated = found.values[name], described.stated.get(number)
+        if stated is None and value < 0.0:
+            what, remedy = (
+                f"{value:.3g} would drive the hinge",
+                f"check the motors' signs; describe {number} in [numbers]",
+            )
+            if source.suffix.lower() == ".csv":
+                remedy = (
+                    "check the motors' signs; name device.toml of the same run, where 0 stands for it if noise is why"
+                )
+            raise InputError(source, name, what, remedy)
+        if stated is not None and name in found.by_itself and _differ(stated.value, max(value, 0.0)):
+            what = f"{stated.value:.4g}, and {value:.4g} in [identified.parameters] {name!r}"
+            raise InputError(source, f"[numbers] {number}", what, "run sit-to-stand device again, or keep one of them")
+
+
+def _confront_bodies(device: WornDevice, source: Path) -> None:
+    """InputError where mass centres or inertias are described that are not those of the identified dynamics."""
+    for part, body in zip(PARTS, device.parts, strict=True):
+        kinds = (
+            ("centre", body.along, SAME_LENGTH),
+            ("ahead", body.across, SAME_LENGTH),
+            ("inertia", body.inertia, 0.0),
+        )
+        for kind, value, least in kinds:
+            name = f"{part.removeprefix('exo_')}_{kind}"
+            stated = device.stated.get(name)
+            if stated is not None and _differ(stated.value, value, least):
+                what = f"{stated.value:.4g}, and {value:.4g} by [identified] with a mass of {body.mass:.4g} kg"
+                remedy = "leave it out, as [identified] has it, and check the masses"
+                raise InputError(source, f"[numbers] {name}", what, remedy)
+
+
+def _differ(one: float, other: float, least: float = 0.0) -> bool:
+    """Whether a number that is given twice is not the same; a difference below `least` does not count."""
+    return abs(one - other) > max(least, SAME * max(abs(one), abs(other)))
 
 
 def _confront_hinges(subject: Subject, source: Path) -> None:
@@ -163,7 +211,7 @@ def worn_sites(study: StandingStudy, file: Path, subject: Subject) -> tuple[Stra
     damped, stated = [], subject.device.stated
     for key in ("damping", "turning_damping"):
         own, other = study.straps.get(key), stated.get(f"strap_{key}")
-        if own is not None and other is not None and abs(own - other.value) > SAME * max(abs(own), abs(other.value)):
+        if own is not None and other is not None and _differ(own, other.value):
             what = f"{own:g}, and {other.value:g} in the description of the exoskeleton"
             raise InputError(file, f"[straps] {key}", what, "keep one of them")
         damped.append(_first(own, stated, f"strap_{key}"))

@@ -17,7 +17,7 @@ from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.person_segments import segments_of
-from geocontact.standing_up.worn_device import WornDevice
+from geocontact.standing_up.worn_device import FRICTION_NAMES, WornDevice
 from geocontact.trial_checks.channel_checks import odd_rate
 
 CUTOFF = 6.0
@@ -87,16 +87,25 @@ def joint_torques(
             raise InputError(files.torques, "", f"no column '{EXO_JOINTS[0]}'", remedy)
         torque = columns_at(files.torques, EXO_JOINTS, role, at)
         _doubt_mode(files, torque, noise)
+        doubt_friction(files.name, device, f"{files.torques.name} has torques of the hinges, friction included")
         return np.hstack([person, torque])
     step = float(np.ptp(time)) / (len(time) - 1)
     friction = device.friction(np.gradient(zero_lag(angles, step, CUTOFF), step, axis=0))[used]
-    if not device.rubs:
-        reserve(f"{files.name}: hinges without friction: name device.toml of sit-to-stand device as device")
+    if device.without_friction:
+        which = ", ".join(device.without_friction)
+        reserve(f"{files.name}: hinges without friction ({which}): name device.toml of sit-to-stand device as device")
     motors = np.zeros_like(friction)
     if files.motors is not None:
         motors = columns_at(files.motors, EXO_JOINTS, f"{files.name} motors", at)
         _doubt_mode(files, motors, noise)
     return np.hstack([person, motors - friction])
+
+
+def doubt_friction(trial: str, device: WornDevice, why: str) -> None:
+    """A warning for described friction that a trial does not use; identified one stands beside bodies that are used."""
+    unused = [name for name in FRICTION_NAMES if name in device.stated and device.stated[name].value != 0.0]
+    if unused and not device.identified:
+        reserve(f"{trial}: friction of the exoskeleton's description ({', '.join(unused)}) has no effect, as {why}")
 
 
 def _doubt_mode(files: StandingTrialFiles, torque: Table, noise: float) -> None:

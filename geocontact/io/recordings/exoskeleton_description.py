@@ -177,7 +177,7 @@ def _source(word: str) -> Source:
 
 
 def exoskeleton_toml(of: ExoskeletonFile, units: Mapping[str, str], remarks: Mapping[str, str] = {}) -> str:
-    """Text that `read_exoskeleton` reads, numbers to the last digit.
+    """Text that `read_exoskeleton` reads, numbers to the last digit, in the order of `EXOSKELETON`.
 
     Parameters
     ----------
@@ -189,7 +189,7 @@ def exoskeleton_toml(of: ExoskeletonFile, units: Mapping[str, str], remarks: Map
     lines = [f"name = {json.dumps(of.name, ensure_ascii=False)}"]
     if of.numbers:
         lines += ["", "[numbers]"]
-        for name, each in of.numbers.items():
+        for name, each in sorted(of.numbers.items(), key=lambda item: list(EXOSKELETON).index(item[0])):
             said = f"source = {json.dumps(each.source)}, note = {json.dumps(each.note, ensure_ascii=False)}"
             line = f"{name} = {{ value = {each.value!r}, unit = {json.dumps(EXOSKELETON[name].unit.si)}, {said} }}"
             lines.append(f"{line}  # {remarks[name]}" if name in remarks else line)

@@ -107,6 +107,16 @@ def test_a_treadmill_that_is_not_named_is_asked_for(tmp_path: Path) -> None:
         gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given, belt=0.5)
 
 
+def test_one_leg_whose_knee_bends_in_swing_has_no_hip_to_doubt() -> None:
+    """A knee at 66 degrees where the leg's hip is lowest, as in swing; an ankle that is bent backwards is named."""
+    record, chain = opened(Record("sit-to-stand calibrate", {})), chain_of(SUBJECT, 5)
+    swing = np.radians([[0.0, 0.0, 0.0, -5.0, 66.0], [0.0, 0.0, 0.0, 5.0, 10.0]])
+    doubt_bending(Path("ik.mot"), chain, swing, np.array([0.7, 0.8]))
+    assert not record.warnings
+    doubt_bending(Path("ik.mot"), chain, swing * [1.0, 1.0, 1.0, -5.0, 1.0], np.array([0.7, 0.8]))
+    assert ["ankle is 25 degrees" in line for line in record.warnings] == [True]
+
+
 def test_stances_without_plates_are_no_study(tmp_path: Path) -> None:
     given = walked(tmp_path) | {"plates": None, "feet": None}
     with pytest.warns(gc.InputWarning, match="no study.toml: stances need `plates`"):

@@ -164,6 +164,11 @@ def test_what_cannot_be_is_refused(tmp_path: Path, trial: str, head: str, words:
         ("^height,1.75", "height,1.8", "set to 1.8 m, the person is 1.75 m tall"),
         ("^exo_thigh inertia,[^,]*", "exo_thigh inertia,-0.3", "exo_thigh has no inertia left"),
         ("^exo_hip Coulomb friction,[^,]*", "exo_hip Coulomb friction,x", "is not a number"),
+        (
+            "^exo_hip Coulomb friction,[^,]*",
+            "exo_hip Coulomb friction,-1.98",
+            "would drive.*name device.toml of the same",
+        ),
         ("by itself", "in sums or not at all", "identifies 0 parameters by themselves"),
         ("^exo_hip viscous friction", "hip friction", "no exo_hip viscous friction"),
     ],

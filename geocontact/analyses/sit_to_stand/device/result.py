@@ -270,7 +270,7 @@ def _numbers(of: DeviceMotion, fit: ExoskeletonDynamics, o: StandingDeviceOption
     asked = "as asked for"
     rows = [
         Ran("height", fit.subject.height, "m", "derived", f"of the person whom it is set to, {asked}"),
-        *joint_numbers(device_alone(fit.subject)),
+        *joint_numbers(device_alone(fit.subject), fit.subject.device),
     ]
     rows += [
         Ran(name, float(value), unit, "derived", "found, by itself" if alone else "found, in sums or not at all")
