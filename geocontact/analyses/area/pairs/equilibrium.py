@@ -89,7 +89,7 @@ def read(o: SettlePairsOptions) -> PressingBodies:
         what = "no body is free: all stay where they are"
         raise InputError(o.description, "[[free]]", what, "write one with body, settles and a force")
     layered = [pair for pair in touching.pairs if pair.options.pressure]
-    if bare := [pair.name for pair in touching.pairs if not pair.options.pressure]:
+    if bare := tuple(pair.name for pair in touching.pairs if not pair.options.pressure):
         reserve(
             f"{o.description}: no layer in {listed(bare)}: nothing presses there, whether the bodies overlap or not"
         )
