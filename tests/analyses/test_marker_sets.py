@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,8 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.motion.naming import SOFT, coverages, named_markers, recognised
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.marker_sets import MARKER_SETS, PLACES, normalised
+from geocontact.data.multibody.body_places import PLACES
+from geocontact.data.multibody.marker_sets import MARKER_SETS, normalised
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.io.mocap.trc import write_trc
@@ -33,6 +35,7 @@ PUBLIC = {  # labels of public files
     "r_mankle_study r_toe_study r_5meta_study r_calc_study C7_study r_thigh1_study RHJC_study",
     "opencap-keypoints": "Neck RShoulder RElbow RWrist LShoulder LElbow LWrist midHip RHip RKnee RAnkle LHip LKnee "
     "LAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel",
+    "ior": "RASIS LASIS RPSIS LPSIS RGT LGT RLE LLE RME LME RHF RTT RLM LLM RMM RCA RFM RSM RVM",
     "cast-clusters": "RFT1 RFT2 RFT3 LFT1 RSK1 RSK2 RSK3 RSK4 RTH1 RTH2 RTH3 RTH4 PV1 PV2 PV3 pv4",
 }
 
@@ -51,6 +54,40 @@ def test_every_label_names_one_place_that_is_known() -> None:
         written = [label.replace("{s}", side) for label in known.labels for side in ("rl" if "{s}" in label else "m")]
         assert len({normalised(label) for label in written}) == len(written), f"{name}: two labels are one"
         assert set(known.labels.values()) <= set(PLACES), name
+        placed = [place for place in known.labels.values() if PLACES[place].at is not None]
+        assert len(set(placed)) == len(placed), f"{name}: two labels are one place"
+
+
+RAJAGOPAL = {  # markers of Rajagopal2016.osim, opensim-models: body and place [m]
+    "RACR": ("torso", (-0.003, 0.425, 0.13)),
+    "C7": ("torso", (-0.085, 0.435, 0.0017)),
+    "CLAV": ("torso", (0.04, 0.38, 0.017)),
+    "RLEL": ("humerus", (0.015, -0.28, 0.04)),
+    "RMEL": ("humerus", (0.00225, -0.286, -0.046)),
+    "RASI": ("pelvis", (0.0095, 0.0181, 0.1285)),
+    "RPSI": ("pelvis", (-0.155, 0.035, 0.045)),
+    "RLFC": ("femur", (0.0, -0.404, 0.05)),
+    "RMFC": ("femur", (0.0, -0.404, -0.05)),
+    "RLMAL": ("tibia", (-0.005, -0.3888, 0.053)),
+    "RMMAL": ("tibia", (0.006, -0.3888, -0.038)),
+    "RCAL": ("calcn", (-0.025, 0.02, -0.005)),
+    "RTOE": ("calcn", (0.205, 0.0297, -0.03)),
+    "RMT5": ("calcn", (0.145, 0.0249, 0.059)),
+}
+
+
+@pytest.mark.parametrize("label", RAJAGOPAL)
+def test_labels_of_rajagopals_model_name_the_place_nearest_to_its_marker(label: str) -> None:
+    """RTOE is on the side of the foot there, 70 mm from the tip of the toes."""
+    segment, at = RAJAGOPAL[label]
+    off = {
+        key: np.linalg.norm(np.subtract(at, place.at))
+        for key, place in PLACES.items()
+        if place.segment == segment and place.at is not None
+    }
+    named = MARKER_SETS["rajagopal"].places()[normalised(label)][0]
+    assert min(off, key=lambda key: off[key]) == named
+    assert off[named] < 0.04
 
 
 def test_coverage_counts_labels_of_the_set_and_of_the_file() -> None:
@@ -67,15 +104,52 @@ def test_two_sets_that_fit_alike_and_differ_are_refused() -> None:
         recognised(tied, "file")
     labels = ["RASI", "LASI", "RPSI", "LPSI", "RTOE", "LTOE"]
     assert recognised(labels, "file").found["RTOE"] == ("metatarsal_2", "r"), "6 of 16, not 6 of 44"
-    assert recognised(labels, "file", "rajagopal").found["RTOE"] == ("toe_tip", "r")
+    assert recognised(labels, "file", "rajagopal").found["RTOE"] == ("toe_medial", "r")
     with pytest.raises(InputError, match="is no marker set"):
         recognised(labels, "file", "vicon")
 
 
 def test_a_label_of_another_set_is_added_only_where_all_sets_agree() -> None:
-    labels = ["r_knee_study", "L_knee_study", "r.ASIS_study", "L.ASIS_study", "RTOE", "PX"]
+    labels = ["r_knee_study", "L_knee_study", "r.ASIS_study", "L.ASIS_study", "RTOE", "PX", "T8"]
+    assert recognised(labels, "file").further == {}, "2 of 4 are no set, and RTOE has two meanings"
+    found = recognised([*labels, "IJ"], "file")
+    assert found.further == {"PX": ("xiphoid", ""), "T8": ("t8", ""), "IJ": ("incisura", "")}
+    assert set(found.donors.values()) == {"isb-trunk 3 of 4"}
+
+
+def test_joints_of_video_are_not_markers_on_skin() -> None:
+    """R.Knee and R.Ankle beside R.ASIS are on the skin somewhere, not the centres that OpenCap's keypoints are."""
+    labels = ["R.ASIS", "L.ASIS", "R.PSIS", "L.PSIS", "R.GTR", "R.Knee", "R.Ankle", "R.Heel", "R.MT1", "R.MT5"]
     found = recognised(labels, "file")
-    assert found.further == {"PX": ("xiphoid", "")}, "RTOE has two meanings"
+    assert found.words == "grand-challenge 5 of 58"
+    assert found.further == {}, "ior's R.GT is not R.GTR"
+    centres = [label for label in PUBLIC["opencap-keypoints"].split() if "Heel" not in label]
+    further = recognised([*PUBLIC["opencap"].split(), *centres], "file").further
+    assert not any(place.endswith("centre") for place, _ in further.values()), "though 18 of 20 are there"
+
+
+@pytest.mark.parametrize("labels", ["A:{0} B:{0}", "{0} l_asi", "{0} L.Asi"])
+def test_two_subjects_in_one_recording_are_refused(labels: str) -> None:
+    """Both were put on one body: 32 of 16."""
+    names = [name for label in PUBLIC["plug-in-gait-lower"].split() for name in labels.format(label).split()]
+    with pytest.raises(InputError, match=r"LASI and \S+ are one place; give a recording of one subject"):
+        recognised(names, "file")
+
+
+def test_markers_of_a_model_that_two_sets_place_apart_are_not_used(file: Path) -> None:
+    """A marker called Sternum of a model is where nobody knows, unless one set fits its markers better."""
+    model = read_multibody(file)
+    moved = dict(zip(("R_Asis", "L_Asis", "Sternum", "R_Heel", "R_Acromium"), model.markers, strict=True))
+    known = replace(model, markers=tuple(replace(m, name=name) for name, m in moved.items()))
+    seen = MarkerTrajectories(np.zeros(1), np.zeros((1, 4, 3)), ("R.ASIS", "L.ASIS", "V.Sacral", "Sternum"), "a.trc")
+    with pytest.warns(InputWarning, match=r"taken for|no marker for|not used"):
+        found = named_markers(known, seen, "cleveland")
+    assert dict(found.table()[["label", "marker of the model"]].to_numpy())["Sternum"] == "Sternum"
+    fewer = replace(known, markers=known.markers[:4])
+    with pytest.warns(InputWarning, match=r"taken for|no marker for|not used"):
+        found = named_markers(fewer, seen, "cleveland")
+    how = dict(found.table()[["label", "marker of the model"]].to_numpy())
+    assert how["R.ASIS"] == "R_Asis" and how["Sternum"].startswith("not used")
 
 
 HIP, KNEE, ANKLE = np.array([-0.07, -0.066, 0.0835]), np.array([0.0, -0.42, 0.0]), np.array([0.0, -0.40, 0.0])
