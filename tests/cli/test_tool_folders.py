@@ -221,7 +221,7 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
         read_tool_folder(tmp_path / "empty")
     (tmp_path / "empty" / "a.c3d").write_bytes(b"\x02\x50" + 600 * b"\0" + b"pelvis_4X4")
     with pytest.raises(InputError, match="as Theia writes them, which are not read"):
-        read_tool_folder(tmp_path / "empty")
+        folder_inputs("ik", tmp_path / "empty")
     two = put(leg, tmp_path / "two", ("leg.osim", "leg.osim"), ("still.trc", "cal1.trc"), ("still.trc", "static2.trc"))
     with pytest.raises(InputError, match="2 trials are static: cal1, static2; say which one with `trial`"):
         folder_inputs("scale", two)
@@ -301,6 +301,22 @@ def test_a_trial_that_cannot_be_read_costs_no_other(leg: Path, tmp_path: Path) -
     assert refused.code == 2 and "state it with --c3d-unit m, cm" in refused.err, refused.err
     ours = call("ik", root, "--c3d-unit", "mm", "--axes", "x,z,-y", "--out", tmp_path / "o", folder=tmp_path / "o")
     assert done(ours).record()["results"]["rms_mm"] < 1e-3
+
+
+def test_poses_of_segments_are_refused_with_the_reason(leg: Path, tmp_path: Path) -> None:
+    """Theia's .c3d holds no point; beside others it is left out."""
+    ezc3d = pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"))
+    content = ezc3d.c3d()
+    content["parameters"]["POINT"]["RATE"]["value"] = [100]
+    content["data"]["points"] = np.zeros((4, 0, 50))
+    content.add_parameter("ROTATION", "LABELS", ["worldbody_4X4", "pelvis_4X4", "l_thigh_4X4"])
+    content.write(str(root / "poses.c3d"))
+    refused = call("ik", root / "poses.c3d", "--model", leg / "leg.osim", "--out", tmp_path / "no")
+    line = "ROTATION:LABELS: holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
+    assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
+    (one,) = folder_inputs("ik", root)
+    assert one.trial == "walk" and line in one.warnings[0]
 
 
 def test_two_files_of_one_trial_cost_no_other(leg: Path, tmp_path: Path) -> None:

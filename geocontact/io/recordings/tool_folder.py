@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import read_bytes, read_json, read_text_bytes
+from geocontact.io.text.file_preflight import read_json, read_text_bytes
 from geocontact.io.text.tables import listed
 from geocontact.io.text.toml_text import toml_of
 
@@ -49,8 +49,6 @@ SCALED = ("match_markers_and_physics", "match_markers_but_ignore_physics", "fina
 GENERIC = ("unscaled_generic", "unscaled_but_with_optimized_markers")
 DEEPEST, MOST_FILES = 4, 20_000
 LARGEST_TEXT = 1_000_000
-HEAD = 65_536
-"""Bytes of a .c3d that hold the labels of its segments."""
 
 
 @dataclass(frozen=True)
@@ -220,8 +218,6 @@ def _rank(stem: str, augmented: bool) -> int:
 
 def _laboratory(root: Path) -> ToolFolder | None:
     recorded, exported = _by_stem(root, ".c3d"), _by_stem(root, ".trc")
-    for file in recorded.values():
-        _refuse_segments(file)
     markers = {**exported, **recorded}
     if not markers:
         return None
@@ -237,13 +233,6 @@ def _laboratory(root: Path) -> ToolFolder | None:
         for name, file in markers.items()
     ]
     return ToolFolder(TRIALS, root, tuple(sorted(trials, key=lambda t: t.name)), tuple(_named(root, ".osim")))
-
-
-def _refuse_segments(file: Path) -> None:
-    """InputError for poses of segments, as Theia writes them: labels such as pelvis_4X4 in the group ROTATION."""
-    if file.suffix.lower() == ".c3d" and b"pelvis_4X4" in read_bytes(file)[:HEAD]:
-        what = "holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
-        raise InputError(file, "ROTATION:LABELS", what, "export markers or joint centres as .trc or .c3d")
 
 
 def _is_static(name: str) -> bool:

@@ -58,7 +58,8 @@ def _say_spanning(model: Multibody, measured: Mapping[str, Sequence[Sequence[str
 def _apart(seen: MarkerTrajectories, one: str, other: str) -> Float[np.ndarray, " t"]:
     places = seen.of((one, other))
     found: Float[np.ndarray, " t"] = np.linalg.norm(places[:, 0] - places[:, 1], axis=1)
-    return found[np.isfinite(found)]
+    seen_both: Float[np.ndarray, " t"] = found[np.isfinite(found)]
+    return seen_both
 
 
 def _own(model: Multibody, one: str, other: str) -> float:
