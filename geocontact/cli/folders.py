@@ -27,14 +27,21 @@ class FoundCall:
     recognised: dict[str, object]
 
 
-def calls_in_folder(tokens: Sequence[str]) -> list[FoundCall]:
-    """One call for each trial, where a folder stands in place of the recording; else none."""
+Spelling = tuple[frozenset[str], Callable[[str], str]]
+"""Options of a command without a value, and what spells names in backticks as they are typed."""
+
+
+def calls_in_folder(tokens: Sequence[str], spelling: Callable[[str], Spelling]) -> list[FoundCall]:
+    """One call for each trial, where a folder stands in place of the recording; else none.
+
+    `spelling` gives that of a command.
+    """
     command = next((c for c in COMMANDS if list(tokens[: len(c.split())]) == c.split()), "")
     if not command or "--help" in tokens or "-h" in tokens:
         return []
     words = command.split()
     rest, wanted = _without_trials(tokens[len(words) :])
-    flags, spell = _options(command)
+    flags, spell = spelling(command)
     at = _place(rest, flags)
     if at is None:
         if wanted:
@@ -58,19 +65,6 @@ def calls_in_folder(tokens: Sequence[str]) -> list[FoundCall]:
         options = [f"--{name}={value}" for name, value in one.options]
         calls.append(FoundCall([*words, str(one.recording), *options, *own], one.table(), one.recognised()))
     return calls
-
-
-def _options(command: str) -> tuple[frozenset[str], Callable[[str], str]]:
-    """Options of a command without a value, and what spells names in backticks as they are typed."""
-    from geocontact.analyses.catalogue import entry_of
-    from geocontact.analyses.frame.options import declared
-    from geocontact.cli.command import FORMS, option, speller
-
-    known = declared(entry_of(command).load_options())
-    flags = [option(one) for one in known if one.kind is bool]
-    spell = speller(known)
-    names = [*flags, *(f"no-{flag}" for flag in flags), *(name.replace("_", "-") for name in FORMS)]
-    return frozenset(f"--{name}" for name in names), lambda text: spell(text).replace("`trial`", TRIAL)
 
 
 def _name(token: str) -> str:
