@@ -155,6 +155,15 @@ def speller(known: tuple[Declared, ...]) -> Callable[[str], str]:
     return spelled
 
 
+def spelling(command: str) -> folders.Spelling:
+    """Options of a command that take no value, and its speller, which knows `trial` of folders as well."""
+    known = declared(entry_of(command).load_options())
+    flags = [option(one) for one in known if one.kind is bool]
+    names = [*flags, *(f"no-{flag}" for flag in flags), *(name.replace("_", "-") for name in FORMS)]
+    spell = speller(known)
+    return frozenset(f"--{name}" for name in names), lambda text: spell(text).replace("`trial`", folders.TRIAL)
+
+
 def argument(one: Declared) -> bool:
     """Whether it is typed without its name."""
     return one.positional and not one.spelled.keyword

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,38 +27,55 @@ class FoundCall:
     recognised: dict[str, object]
 
 
-def calls_in_folder(tokens: Sequence[str]) -> list[FoundCall]:
-    """One call for each trial, where a folder stands in place of the recording; else none."""
+Spelling = tuple[frozenset[str], Callable[[str], str]]
+"""Options of a command without a value, and what spells names in backticks as they are typed."""
+
+
+def calls_in_folder(tokens: Sequence[str], spelling: Callable[[str], Spelling]) -> list[FoundCall]:
+    """One call for each trial, where a folder stands in place of the recording; else none.
+
+    `spelling` gives that of a command.
+    """
     command = next((c for c in COMMANDS if list(tokens[: len(c.split())]) == c.split()), "")
     if not command or "--help" in tokens or "-h" in tokens:
         return []
     words = command.split()
     rest, wanted = _without_trials(tokens[len(words) :])
-    at = _place(rest)
+    flags, spell = spelling(command)
+    at = _place(rest, flags)
     if at is None:
         if wanted:
             raise InputError("", TRIAL, "has no effect without a folder", "name the folder in place of the recording")
         return []
     from geocontact.analyses.motion.folder_inputs import folder_inputs
 
-    typed = frozenset(token.partition("=")[0].removeprefix("--") for token in rest if token.startswith("--"))
+    typed = {_name(token): _value(rest, k) for k, token in enumerate(rest) if token.startswith("--")}
     try:
         with warnings_in_a_line():
-            found = folder_inputs(command, Path(rest[at]), wanted, typed)
+            found = folder_inputs(command, Path(rest[at]), wanted, frozenset(typed), typed.get("c3d_unit"))
     except InputError as error:
-        raise InputError(error.file, *map(_spelled, (error.place, error.what, error.remedy))) from error
+        raise InputError(error.file, *map(spell, (error.place, error.what, error.remedy))) from error
     others = rest[:at] + rest[at + 1 :]
     calls = []
     for one in found:
         own = others if len(found) == 1 else _into(others, one.trial)
+        own = (
+            own if _has_c3d([one.recording, *map(Path, own)]) or not _has_c3d(one.folder.iterdir()) else _unitless(own)
+        )
         options = [f"--{name}={value}" for name, value in one.options]
         calls.append(FoundCall([*words, str(one.recording), *options, *own], one.table(), one.recognised()))
     return calls
 
 
-def _spelled(text: str) -> str:
-    """Options in backticks as they are typed."""
-    return re.sub(r"`(\w+)`", r"--\1", text)
+def _name(token: str) -> str:
+    """Name in Python of an option as it is typed."""
+    return token.partition("=")[0].removeprefix("--").replace("-", "_")
+
+
+def _value(tokens: Sequence[str], at: int) -> str | None:
+    """Value of the option at a place, None where nothing follows."""
+    _, equals, value = tokens[at].partition("=")
+    return value if equals else tokens[at + 1] if at + 1 < len(tokens) else None
 
 
 def _without_trials(tokens: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -78,13 +94,30 @@ def _without_trials(tokens: Sequence[str]) -> tuple[list[str], list[str]]:
     return rest, wanted
 
 
-def _place(rest: Sequence[str]) -> int | None:
-    """Where the folder stands: the first token that is no option's value and is a folder, or a .b3d file."""
+def _has_c3d(files: Iterable[Path]) -> bool:
+    return any(file.suffix.lower() == ".c3d" for file in files)
+
+
+def _unitless(tokens: Sequence[str]) -> list[str]:
+    """Tokens without the unit of .c3d files, which the trial of a .trc beside them does not need."""
+    rest = list(tokens)
+    for k in range(len(rest) - 1, -1, -1):
+        if rest[k].startswith("--c3d") and _name(rest[k]) == "c3d_unit":
+            del rest[k : k + (1 if "=" in rest[k] else 2)]
+    return rest
+
+
+def _place(rest: Sequence[str], flags: frozenset[str]) -> int | None:
+    """Where the folder stands: the token that is no option's value and is a folder, or a .b3d file."""
+    found = []
     for k, token in enumerate(rest):
-        valued = k > 0 and rest[k - 1].startswith("--") and "=" not in rest[k - 1]
+        before = rest[k - 1] if k else ""
+        valued = before.startswith("--") and "=" not in before and before not in flags
         if not token.startswith("-") and not valued and (Path(token).is_dir() or token.lower().endswith(".b3d")):
-            return k
-    return None
+            found.append(k)
+    if len(found) > 1:
+        raise InputError("", rest[found[1]], f"is a second folder beside {rest[found[0]]}", "name one")
+    return found[0] if found else None
 
 
 def _into(tokens: Sequence[str], trial: str) -> list[str]:

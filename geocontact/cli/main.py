@@ -15,7 +15,7 @@ from cyclopts import App, CycloptsError, MissingArgumentError
 from geocontact.analyses.catalogue import ENTRIES, GROUPS
 from geocontact.analyses.frame.folder import discard_drafts, what_stays
 from geocontact.analyses.frame.record import recognised
-from geocontact.cli.command import place_of
+from geocontact.cli.command import place_of, spelling
 from geocontact.cli.folders import FoundCall, calls_in_folder
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.cli.suggestions import help_of, mistyped, remedy_for
@@ -114,7 +114,7 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
 
 def _called(tokens: Sequence[str], debug: bool) -> int:
     tokens = with_setup(tokens)
-    if found := calls_in_folder(tokens):
+    if found := calls_in_folder(tokens, spelling):
         return max([_run_found(each, debug) for each in found])
     _load_what_is_listed(tokens)
     result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +13,11 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.motion.naming import SOFT, coverages, named_markers, recognised
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.multibody.marker_sets import MARKER_SETS, PLACES, normalised
+from geocontact.data.multibody.body_places import PLACES
+from geocontact.data.multibody.marker_sets import MARKER_SETS, normalised
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
-from geocontact.io.mocap.trc import write_trc
+from geocontact.io.mocap.trc import read_trc, write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 
 PUBLIC = {  # labels of public files
@@ -33,6 +36,7 @@ PUBLIC = {  # labels of public files
     "r_mankle_study r_toe_study r_5meta_study r_calc_study C7_study r_thigh1_study RHJC_study",
     "opencap-keypoints": "Neck RShoulder RElbow RWrist LShoulder LElbow LWrist midHip RHip RKnee RAnkle LHip LKnee "
     "LAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel",
+    "ior": "RASIS LASIS RPSIS LPSIS RGT LGT RLE LLE RME LME RHF RTT RLM LLM RMM RCA RFM RSM RVM",
     "cast-clusters": "RFT1 RFT2 RFT3 LFT1 RSK1 RSK2 RSK3 RSK4 RTH1 RTH2 RTH3 RTH4 PV1 PV2 PV3 pv4",
 }
 
@@ -51,6 +55,40 @@ def test_every_label_names_one_place_that_is_known() -> None:
         written = [label.replace("{s}", side) for label in known.labels for side in ("rl" if "{s}" in label else "m")]
         assert len({normalised(label) for label in written}) == len(written), f"{name}: two labels are one"
         assert set(known.labels.values()) <= set(PLACES), name
+        placed = [place for place in known.labels.values() if PLACES[place].at is not None]
+        assert len(set(placed)) == len(placed), f"{name}: two labels are one place"
+
+
+RAJAGOPAL = {  # markers of Rajagopal2016.osim, opensim-models: body and place [m]
+    "RACR": ("torso", (-0.003, 0.425, 0.13)),
+    "C7": ("torso", (-0.085, 0.435, 0.0017)),
+    "CLAV": ("torso", (0.04, 0.38, 0.017)),
+    "RLEL": ("humerus", (0.015, -0.28, 0.04)),
+    "RMEL": ("humerus", (0.00225, -0.286, -0.046)),
+    "RASI": ("pelvis", (0.0095, 0.0181, 0.1285)),
+    "RPSI": ("pelvis", (-0.155, 0.035, 0.045)),
+    "RLFC": ("femur", (0.0, -0.404, 0.05)),
+    "RMFC": ("femur", (0.0, -0.404, -0.05)),
+    "RLMAL": ("tibia", (-0.005, -0.3888, 0.053)),
+    "RMMAL": ("tibia", (0.006, -0.3888, -0.038)),
+    "RCAL": ("calcn", (-0.025, 0.02, -0.005)),
+    "RTOE": ("calcn", (0.205, 0.0297, -0.03)),
+    "RMT5": ("calcn", (0.145, 0.0249, 0.059)),
+}
+
+
+@pytest.mark.parametrize("label", RAJAGOPAL)
+def test_labels_of_rajagopals_model_name_the_place_nearest_to_its_marker(label: str) -> None:
+    """RTOE is on the side of the foot there, 70 mm from the tip of the toes."""
+    segment, at = RAJAGOPAL[label]
+    off = {
+        key: np.linalg.norm(np.subtract(at, place.at))
+        for key, place in PLACES.items()
+        if place.segment == segment and place.at is not None
+    }
+    named = MARKER_SETS["rajagopal"].places()[normalised(label)][0]
+    assert min(off, key=lambda key: off[key]) == named
+    assert off[named] < 0.04
 
 
 def test_coverage_counts_labels_of_the_set_and_of_the_file() -> None:
@@ -67,15 +105,54 @@ def test_two_sets_that_fit_alike_and_differ_are_refused() -> None:
         recognised(tied, "file")
     labels = ["RASI", "LASI", "RPSI", "LPSI", "RTOE", "LTOE"]
     assert recognised(labels, "file").found["RTOE"] == ("metatarsal_2", "r"), "6 of 16, not 6 of 44"
-    assert recognised(labels, "file", "rajagopal").found["RTOE"] == ("toe_tip", "r")
+    assert recognised(labels, "file", "rajagopal").found["RTOE"] == ("toe_medial", "r")
     with pytest.raises(InputError, match="is no marker set"):
         recognised(labels, "file", "vicon")
 
 
 def test_a_label_of_another_set_is_added_only_where_all_sets_agree() -> None:
-    labels = ["r_knee_study", "L_knee_study", "r.ASIS_study", "L.ASIS_study", "RTOE", "PX"]
+    labels = ["r_knee_study", "L_knee_study", "r.ASIS_study", "L.ASIS_study", "RTOE", "PX", "T8"]
+    assert recognised(labels, "file").further == {}, "2 of 4 are no set, and RTOE has two meanings"
+    found = recognised([*labels, "IJ"], "file")
+    assert found.further == {"PX": ("xiphoid", ""), "T8": ("t8", ""), "IJ": ("incisura", "")}
+    assert set(found.donors.values()) == {"isb-trunk 3 of 4"}
+
+
+def test_joints_of_video_are_not_markers_on_skin() -> None:
+    """R.Knee and R.Ankle beside R.ASIS are on the skin somewhere, not the centres that OpenCap's keypoints are."""
+    labels = ["R.ASIS", "L.ASIS", "R.PSIS", "L.PSIS", "R.GTR", "R.Knee", "R.Ankle", "R.Heel", "R.MT1", "R.MT5"]
     found = recognised(labels, "file")
-    assert found.further == {"PX": ("xiphoid", "")}, "RTOE has two meanings"
+    assert found.words == "grand-challenge 5 of 58"
+    assert found.further == {}, "ior's R.GT is not R.GTR"
+    centres = [label for label in PUBLIC["opencap-keypoints"].split() if "Heel" not in label]
+    study = [label.format(s=side) for label in MARKER_SETS["opencap"].labels for side in "rl" if "{s}" in label]
+    found = recognised([*study, *centres], "file")
+    assert found.name == "opencap"
+    assert not any(place.endswith("centre") for place, _ in found.further.values()), "though 18 of 20 are there"
+
+
+@pytest.mark.parametrize("labels", ["A:{0} B:{0}", "{0} l_asi", "{0} L.Asi"])
+def test_two_subjects_in_one_recording_are_refused(labels: str) -> None:
+    """Both were put on one body: 32 of 16."""
+    names = [name for label in PUBLIC["plug-in-gait-lower"].split() for name in labels.format(label).split()]
+    with pytest.raises(InputError, match=r"LASI and \S+ are one place; give a recording of one subject"):
+        recognised(names, "file")
+
+
+def test_markers_of_a_model_that_two_sets_place_apart_are_not_used(file: Path) -> None:
+    """A marker called Sternum of a model is where nobody knows, unless one set fits its markers better."""
+    model = read_multibody(file)
+    moved = dict(zip(("R_Asis", "L_Asis", "Sternum", "R_Heel", "R_Acromium"), model.markers, strict=True))
+    known = replace(model, markers=tuple(replace(m, name=name) for name, m in moved.items()))
+    seen = MarkerTrajectories(np.zeros(1), np.zeros((1, 4, 3)), ("R.ASIS", "L.ASIS", "V.Sacral", "Sternum"), "a.trc")
+    with pytest.warns(InputWarning, match=r"taken for|no marker for|not used"):
+        found = named_markers(known, seen, "cleveland")
+    assert dict(found.table()[["label", "marker of the model"]].to_numpy())["Sternum"] == "Sternum"
+    fewer = replace(known, markers=known.markers[:4])
+    with pytest.warns(InputWarning, match=r"taken for|no marker for|not used"):
+        found = named_markers(fewer, seen, "cleveland")
+    how = dict(found.table()[["label", "marker of the model"]].to_numpy())
+    assert how["R.ASIS"] == "R_Asis" and how["Sternum"].startswith("not used")
 
 
 HIP, KNEE, ANKLE = np.array([-0.07, -0.066, 0.0835]), np.array([0.0, -0.42, 0.0]), np.array([0.0, -0.40, 0.0])
@@ -201,3 +278,107 @@ def test_scale_measures_the_sets_pairs_and_ik_needs_no_name(file: Path, standing
     assert "naming" in direct.tables()
     with pytest.raises(InputError, match="naming"):
         gc.inverse_kinematics(standing, model=file, naming="auto", markers_map="RASI=R.ASIS")
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
+def test_a_scaled_model_keeps_its_wands_and_a_marker_set_is_named_once(
+    file: Path, standing: Path, tmp_path: Path
+) -> None:
+    """A static pose has moved the wands: they count as others do. OpenSim's set-up names one set of markers."""
+    own = tmp_path / "markers.xml"
+    text = file.read_text()
+    markers = text[text.index("<MarkerSet>") : text.index("</MarkerSet>") + len("</MarkerSet>")]
+    own.write_text(f'<?xml version="1.0"?><OpenSimDocument Version="40000">{markers}</OpenSimDocument>')
+    folder = gc.scale(standing, model=file, naming="auto", marker_set=own).write(tmp_path / "s")
+    setup = (folder / "setup_scale.xml").read_text()
+    assert "<model_file>model.osim" in setup
+    assert "markers.xml" not in setup
+    assert set(re.findall(r'Marker name="(\w+)"', (folder / "model.osim").read_text())) == set(LABELS[:7])
+    seen = MarkerTrajectories(np.zeros(1), np.zeros((1, 7, 3)), LABELS[:7], "static.trc")
+    assert set(named_markers(read_multibody(folder / "scaled.osim"), seen, "auto").weights.values()) == {1.0}
+
+
+def _walked(standing: Path, longer: float, bent: float) -> Path:
+    """The right shank longer by so many metres, and in every other frame the knee further from the pelvis."""
+    seen = read_trc(standing)
+    places = np.array(seen.positions)
+    places[:, seen.names.index("RANK"), 1] -= longer
+    for name in ("RKNE", "RTHI", "RSHA", "RANK"):
+        places[::2, seen.names.index(name), 1] -= bent
+    file = standing.with_name("moved.trc")
+    write_trc(file, replace(seen, positions=places))
+    return file
+
+
+def _doubts(file: Path, trial: Path, *scale: str) -> list[str]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        found = gc.scale(trial, model=file, scale=scale, **({} if scale else {"naming": "auto"}))
+    return [line for line in found.warnings if "mm longer" in line or "mm apart" in line]
+
+
+def test_a_pair_that_changes_its_length_is_said(file: Path, standing: Path) -> None:
+    """Hip or knee lie between: the factor belongs to the pose."""
+    assert not _doubts(file, _walked(standing, 0.0, 0.015))
+    (line,) = _doubts(file, _walked(standing, 0.0, 0.03))
+    match = re.search(r"femur_r: RASI and RKNE are (\d+) to (\d+) mm apart, which changes with hip_r_\d:", line)
+    apart = 1.1 * (HIP + np.array([-0.02, -0.46, -0.07]))
+    by_hand = [1e3 * np.linalg.norm(apart - (0.0, lower, 0.0)) for lower in (0.0, 0.03)]
+    np.testing.assert_allclose([float(each) for each in match.groups()] if match else line, by_hand, atol=3.0)
+    with pytest.warns(InputWarning):
+        still = gc.scale(standing, model=file, naming="auto")
+    said = next(line for line in still.sentences if "across a joint" in line)
+    assert re.search(r"femur_r by RASI/RKNE \(hip_r_\d, \d+ mm\)", said), said
+    assert "pelvis by" not in said, "one body"
+
+
+def test_sides_of_unequal_length_are_said(two_legs: Path, tmp_path: Path) -> None:
+    """20 mm, more than 3 standard deviations of legs; numbers that are typed are no measurement."""
+    labels = ("R.ASIS", "L.ASIS", "R.Knee.Lat", "L.Knee.Lat")
+    for longer, said in ((0.0, 0), (0.015, 0), (0.03, 1)):
+        places = np.array([[0.02, 0.03, 0.12], [0.02, 0.03, -0.12], [0, -0.486, 0.13], [0, -0.486 - longer, -0.13]])
+        trial = tmp_path / "static.trc"
+        write_trc(trial, MarkerTrajectories(np.array([0.0, 0.01]), np.tile(places, (2, 1, 1)), labels))
+        pairs = "femur_r=R.ASIS/R.Knee.Lat", "femur_l=L.ASIS/L.Knee.Lat"
+        found = _doubts(two_legs, trial, *pairs)
+        assert len(found) == said, found
+        both = "femur_r,femur_l=R.ASIS/R.Knee.Lat,L.ASIS/L.Knee.Lat"
+        assert not _doubts(two_legs, trial, both)
+    (line,) = found
+    assert re.search(r"femur: the left one is scaled 30 mm longer than the right one; markers are", line), line
+    assert not _doubts(two_legs, trial, "femur_r=1.0", "femur_l=1.1")
+    places[3, 1] = places[2, 1]  # legs of one length, and a model whose markers are not
+    write_trc(trial, MarkerTrajectories(np.array([0.0, 0.01]), np.tile(places, (2, 1, 1)), labels))
+    two_legs.write_text(two_legs.read_text().replace("0.07 -0.42 -0.0465", "0.07 -0.38 -0.0465"))
+    (line,) = _doubts(two_legs, trial, *pairs)
+    assert re.search(r"markers are (\d+) and \1 mm apart, right and left, those of the model \d+ and \d+ mm", line), (
+        line
+    )
+
+
+@pytest.fixture
+def two_legs(tmp_path: Path) -> Path:
+    """Pelvis and two femora, a marker on each side of each."""
+    bodies = "".join(
+        f'<Body name="{name}"><mass>5</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>'
+        for name in ("pelvis", "femur_r", "femur_l")
+    )
+    joints = _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6) + "".join(
+        _joint(f"hip_{s}", "BallJoint", "pelvis", f"femur_{s}", HIP * (1, 1, z), 3) for s, z in (("r", 1), ("l", -1))
+    )
+    markers = "".join(
+        f'<Marker name="{s.upper()}.{name}"><socket_parent_frame>/bodyset/{body.format(s)}</socket_parent_frame>'
+        f"<location>{x} {y} {z if s == 'r' else -z}</location></Marker>"
+        for s in "rl"
+        for name, body, (x, y, z) in (
+            ("ASIS", "pelvis", (0.02, 0.03, 0.12)),
+            ("Knee.Lat", "femur_{}", (0.07, -0.42, 0.0465)),
+        )
+    )
+    path = tmp_path / "legs.osim"
+    path.write_text(
+        '<?xml version="1.0"?><OpenSimDocument Version="40000"><Model name="legs"><gravity>0 -9.8 0</gravity>'
+        f"<BodySet><objects>{bodies}</objects></BodySet><JointSet><objects>{joints}</objects></JointSet>"
+        f"<MarkerSet><objects>{markers}</objects></MarkerSet></Model></OpenSimDocument>"
+    )
+    return path

@@ -6,13 +6,16 @@ import json
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from geocontact.analyses.motion.folder_inputs import folder_inputs
 from geocontact.data.errors import InputError
+from geocontact.io.mocap.trc import read_trc
 from geocontact.io.recordings.tool_folder import read_tool_folder
 from tests import legs
 from tests.cli.calls import MESHES, Call, call, done
+from tests.trial_checks.as_c3d import write_c3d
 
 SESSION = "calibrationSettings:\n  mass_kg: 1\nheight_m: 1.8\nmass_kg: {}\nopenSimModel: leg\nsubjectID: synthetic\n"
 
@@ -138,7 +141,11 @@ def test_a_subject_of_addbiomechanics_has_its_loads(leg: Path, tmp_path: Path) -
     assert not typed[0].options
     nested = tmp_path / "nested"
     shutil.copytree(root, nested / "results")
-    assert folder_inputs("ik", nested)[0].recording.name == "walk_segment_0.trc"
+    (nested / "results" / "_subject.json").rename(nested / "_subject.json")
+    for place in (nested, nested / "results"):  # the person's file lies beside the second
+        (one,) = folder_inputs("ik", place)
+        assert one.recording.name == "walk_segment_0.trc"
+        assert Path(next(part.file for part in one.parts if part.part == "person")).name == "_subject.json"
 
 
 def test_loads_that_are_missing_are_said(leg: Path, tmp_path: Path) -> None:
@@ -214,7 +221,7 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
         read_tool_folder(tmp_path / "empty")
     (tmp_path / "empty" / "a.c3d").write_bytes(b"\x02\x50" + 600 * b"\0" + b"pelvis_4X4")
     with pytest.raises(InputError, match="as Theia writes them, which are not read"):
-        read_tool_folder(tmp_path / "empty")
+        folder_inputs("ik", tmp_path / "empty")
     two = put(leg, tmp_path / "two", ("leg.osim", "leg.osim"), ("still.trc", "cal1.trc"), ("still.trc", "static2.trc"))
     with pytest.raises(InputError, match="2 trials are static: cal1, static2; say which one with `trial`"):
         folder_inputs("scale", two)
@@ -255,3 +262,120 @@ def test_a_whole_body_that_stands_up_is_one_word(tmp_path: Path) -> None:
     (alone,) = folder_inputs("sit-to-stand coordinates", root)
     assert any("no plates belong to up" in line for line in alone.warnings)
     assert dict(alone.options)["height"] == "1.75"
+
+
+NAMES = (
+    "sit_to_stand1 sitToStand standToSit stand2sit stand_up standing_up oneLegStand stand_and_reach walk_standard calf"
+)
+STATIC = "static1 Static_Pose stand01 standing P1_stand neutral T-pose tPose left-static P1_cal01 stat2"
+
+
+def test_standing_up_is_no_standing(leg: Path, tmp_path: Path) -> None:
+    """Sitting down, standing up and one leg are movements; every trial that is left out is printed."""
+    for name in NAMES.split():
+        root = put(leg, tmp_path / "names" / name, ("walk.trc", f"{name}.trc"))
+        assert not read_tool_folder(root).trials[0].static, name
+    for name in STATIC.split():
+        root = put(leg, tmp_path / "names" / name, ("walk.trc", f"{name}.trc"))
+        assert read_tool_folder(root).trials[0].static, name
+    root = opencap(leg, tmp_path / "session")
+    put(leg, root, ("walk.mot", "OpenSimData/Kinematics/sit_to_stand1.mot"))
+    for command in ("id", "markers", "sit-to-stand coordinates"):
+        found = folder_inputs(command, root)
+        assert [one.trial for one in found] == ["sit_to_stand1", "walk1"], command
+        assert found[0].left_out == ("neutral (no coordinates)",)
+    put(leg, root, ("walk.mot", "OpenSimData/Kinematics/static2.mot"))
+    (root / "OpenSimData/Kinematics/sit_to_stand1.mot").unlink()
+    ours = done(call("markers", root, "--out", tmp_path / "o", folder=tmp_path / "o"))
+    assert "trial left out: static2 (static by its name)" in ours.out
+    assert ours.record()["folder"]["left_out"] == ["neutral (no coordinates)", "static2 (static by its name)"]
+
+
+def recorded(leg: Path, file: Path, unit: str = "mm", loads: tuple[float, ...] = ()) -> Path:
+    """A .c3d of the leg that swings, with a plate under each load [N]."""
+    seen = read_trc(leg / "walk.trc")
+    still = np.zeros((len(seen.time), 3))
+    plates = tuple((np.add(still, (0.0, load, 0.0)), np.add(still, (0.1, 0.0, 0.05)), still) for load in loads)
+    write_c3d(file, seen.names, seen.positions, legs.RATE, plates)
+    if unit != "mm":
+        import ezc3d
+
+        content = ezc3d.c3d(str(file))
+        content["parameters"]["POINT"]["UNITS"]["value"] = [unit]
+        content.write(str(file))
+    return file
+
+
+def test_plates_of_a_c3d_are_not_passed_over(leg: Path, tmp_path: Path) -> None:
+    """Nothing but gravity acts only where no plate was recorded; loads of one trial act in one."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.mot", "walk.mot"))
+    plated = recorded(leg, root / "walk.c3d", loads=(200.0, 150.0))
+    refused = call("id", root, "--out", tmp_path / "no")
+    assert refused.code == 2 and "holds 2 force plates" in refused.err, refused.err
+    assert f"give --plates {plated} --plate 1=calcn_r" in refused.err and len(refused.complaints) == 1
+    (one,) = folder_inputs("id", root, typed=frozenset({"plates", "plate"}))
+    assert not one.warnings
+    recorded(leg, plated)
+    assert "nothing but gravity acts" in folder_inputs("id", root)[0].warnings[0]
+    put(leg, root, ("walk.mot", "run.mot"), ("walk.trc", "run.trc"))
+    with pytest.raises(InputError, match=r"`plates`: is of one trial, and there are run, walk; choose with `trial`"):
+        folder_inputs("id", root, typed=frozenset({"plates", "plate"}))
+
+
+def test_a_trial_that_cannot_be_read_costs_no_other(leg: Path, tmp_path: Path) -> None:
+    """Markers without a unit, or none at all, are left out with a note; the unit that is typed counts."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("still.trc", "static.trc"), ("walk.trc", "walk.trc"))
+    recorded(leg, root / "odd.c3d", unit="")
+    for command, trial in (("ik", "walk"), ("scale", "static")):
+        (one,) = folder_inputs(command, root)
+        assert one.trial == trial and "trial odd is left out" in one.warnings[0], one.warnings
+        assert "state it with `c3d_unit`" in one.warnings[0]
+    assert [one.trial for one in folder_inputs("ik", root, c3d_unit="mm")] == ["odd", "walk"]
+    done(call("scale", root, "--c3d-unit", "mm", "--mass=30", "--out", tmp_path / "s", folder=tmp_path / "s"))
+    for name in ("walk.trc", "static.trc"):
+        (root / name).unlink()
+    refused = call("ik", root, "--out", tmp_path / "no")
+    assert refused.code == 2 and "state it with --c3d-unit m, cm" in refused.err, refused.err
+    ours = call("ik", root, "--c3d-unit", "mm", "--axes", "x,z,-y", "--out", tmp_path / "o", folder=tmp_path / "o")
+    assert done(ours).record()["results"]["rms_mm"] < 1e-3
+
+
+def test_poses_of_segments_are_refused_with_the_reason(leg: Path, tmp_path: Path) -> None:
+    """Theia's .c3d holds no point; beside others it is left out."""
+    ezc3d = pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"))
+    content = ezc3d.c3d()
+    content["parameters"]["POINT"]["RATE"]["value"] = [100]
+    content["data"]["points"] = np.zeros((4, 0, 50))
+    content.add_parameter("ROTATION", "LABELS", ["worldbody_4X4", "pelvis_4X4", "l_thigh_4X4"])
+    content.write(str(root / "poses.c3d"))
+    refused = call("ik", root / "poses.c3d", "--model", leg / "leg.osim", "--out", tmp_path / "no")
+    line = "ROTATION:LABELS: holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
+    assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
+    (one,) = folder_inputs("ik", root)
+    assert one.trial == "walk" and line in one.warnings[0]
+
+
+def test_two_files_of_one_trial_cost_no_other(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"), ("walk.trc", "walk2.trc"))
+    recorded(leg, root / "walk.c3d")
+    both = "walk.c3d and walk.trc are of one trial; name the file that is meant"
+    (one,) = folder_inputs("ik", root)
+    assert one.trial == "walk2" and both in one.warnings[0]
+    assert [each.trial for each in folder_inputs("ik", root, ["walk2"])] == ["walk2"]
+    with pytest.raises(InputError, match=both):
+        folder_inputs("ik", root, ["walk"])
+    (root / "walk2.trc").unlink()
+    with pytest.raises(InputError, match=both):
+        folder_inputs("ik", root)
+    put(leg, root, ("walk.mot", "walk.mot"))
+    assert folder_inputs("markers", root)[0].recording.name == "walk.mot", "markers are not needed"
+
+
+def test_a_folder_after_a_flag_is_a_folder(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("still.trc", "static.trc"))
+    for flag in ("--mass-by-volume", "--no-overwrite"):
+        done(call("scale", "--mass=30", flag, root, "--out", tmp_path / flag, folder=tmp_path / flag))
+    other = put(leg, tmp_path / "other", ("still.trc", "static.trc"))
+    refused = call("scale", root, other, "--mass=30", "--out", tmp_path / "no")
+    assert refused.code == 2 and f"{other}: is a second folder beside {root}; name one" in refused.err, refused.err

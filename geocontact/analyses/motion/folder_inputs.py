@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import warnings as python_warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from geocontact.analyses.frame.words import counted
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.markers import MarkerTrajectories
+from geocontact.io.mocap.c3d_plates import read_c3d_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.opensim.osim_xml import numbers_of, read_model
@@ -70,6 +73,8 @@ class FolderInputs:
         How many others there are.
     warnings
         Doubts about the folder, one line each.
+    left_out
+        Trials that are not used, though nobody named others, and why.
     """
 
     kind: str
@@ -80,23 +85,39 @@ class FolderInputs:
     parts: tuple[FolderPart, ...]
     unused: int
     warnings: tuple[str, ...]
+    left_out: tuple[str, ...] = ()
 
     def recognised(self) -> dict[str, object]:
         """What `run.json` says of it."""
         said = {"kind": self.kind, "folder": self.folder.as_posix(), "trial": self.trial}
         parts = [asdict(part) for part in self.parts]
-        return {**said, "parts": parts, "unused_files": self.unused, "warnings": list(self.warnings)}
+        doubts = {"warnings": list(self.warnings), "left_out": list(self.left_out)}
+        return {**said, "parts": parts, "unused_files": self.unused, **doubts}
 
     def table(self) -> list[str]:
         """Lines that say which file plays which part."""
         wide, wider = (max(map(len, texts)) for texts in ([p.part for p in self.parts], [p.file for p in self.parts]))
         rows = [f"  {p.part.ljust(wide)}  {p.file.ljust(wider)}  {p.note}".rstrip() for p in self.parts]
-        others = counted(self.unused, "other file")
-        return [f"{self.folder}: {self.kind}, trial {self.trial}", *rows, f"  {others} not used"]
+        others = [f"  trial left out: {each}" for each in self.left_out]
+        others.append(f"  {counted(self.unused, 'other file')} not used")
+        return [f"{self.folder}: {self.kind}, trial {self.trial}", *rows, *others]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Trials that are used, doubts about them, and those left out with the reason."""
+
+    trials: list[FolderTrial]
+    notes: list[str] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
 
 
 def folder_inputs(
-    command: str, path: Path, wanted: Sequence[str] = (), typed: frozenset[str] = frozenset()
+    command: str,
+    path: Path,
+    wanted: Sequence[str] = (),
+    typed: frozenset[str] = frozenset(),
+    c3d_unit: str | None = None,
 ) -> list[FolderInputs]:
     """Inputs of the trials that are wanted, of all that a command can use by default; of `scale` one static trial.
 
@@ -106,20 +127,31 @@ def folder_inputs(
         Names of trials.
     typed
         Options that the user gives, which nothing of the folder replaces.
+    c3d_unit
+        Unit of .c3d files whose own is empty.
     """
     if path.suffix.lower() == ".b3d":
         raise InputError(path, "", "is AddBiomechanics' own format", B3D)
     folder = read_tool_folder(path)
-    notes: list[str] = []
+    choice = _chosen(command, folder, wanted, c3d_unit)
+    _refuse_shared(folder, choice.trials, typed)
     found = []
-    for trial in _chosen(command, folder, wanted, notes):
+    for trial in choice.trials:
         options, warnings = _options(command, folder, trial, typed)
         recording = _recording(command, folder, trial)
         parts = _parts(command, folder, trial, recording, options)
-        said = (*notes, *warnings)
-        given = tuple(options.items())
-        found.append(FolderInputs(folder.kind, path, trial.name, recording, given, parts, folder.unused, said))
+        said, given = (*choice.notes, *warnings), tuple(options.items())
+        out = tuple(choice.left_out)
+        found.append(FolderInputs(folder.kind, path, trial.name, recording, given, parts, folder.unused, said, out))
     return found
+
+
+def _refuse_shared(folder: ToolFolder, trials: Sequence[FolderTrial], typed: frozenset[str]) -> None:
+    """InputError where loads that are typed, which were recorded once, would act in several trials."""
+    once = sorted({"loads", "plates"} & typed)
+    if once and len(trials) > 1:
+        names = listed(tuple(t.name for t in trials))
+        raise InputError(folder.root, f"`{once[0]}`", f"is of one trial, and there are {names}", "choose with `trial`")
 
 
 def _recording(command: str, folder: ToolFolder, trial: FolderTrial) -> Path:
@@ -127,16 +159,26 @@ def _recording(command: str, folder: ToolFolder, trial: FolderTrial) -> Path:
     file = trial.markers if FIRST[command] == "markers" else trial.coordinates
     if file is None:
         raise InputError(folder.root, "", f"trial '{trial.name}' has no {FIRST[command]}", REMEDIES[FIRST[command]])
+    if FIRST[command] == "markers" and trial.rival is not None:
+        raise InputError(folder.root, "", _rivals(trial), RIVALS)
     return file
+
+
+RIVALS = "name the file that is meant, or leave one of them there"
+
+
+def _rivals(trial: FolderTrial) -> str:
+    """Words for a trial with two files of markers."""
+    names = [file.name for file in (trial.markers, trial.rival) if file is not None]
+    return f"{' and '.join(names)} are of one trial"
 
 
 REMEDIES = {"coordinates": "compute them first: geocontact ik", "markers": "is the folder complete?"}
 
 
-def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], notes: list[str]) -> list[FolderTrial]:
+def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: str | None) -> Choice:
     """Trials with the file that the command begins with; the static ones for `scale` only, unless they are named."""
     first = FIRST[command]
-    usable = [t for t in folder.trials if (t.markers if first == "markers" else t.coordinates) is not None]
     strange = [name for name in wanted if name not in [t.name for t in folder.trials]]
     if strange:
         raise InputError(folder.root, "`trial`", f"no trial '{strange[0]}'", f"there are {choices(folder)}")
@@ -144,26 +186,58 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], notes: list
         chosen = [t for t in folder.trials if t.name in wanted]
         for trial in chosen:
             _recording(command, folder, trial)
-        return chosen
-    if not usable:
+        return Choice(chosen)
+    there = [t for t in folder.trials if (t.markers if first == "markers" else t.coordinates) is not None]
+    if not there:
         raise InputError(folder.root, "", f"no trial has {first}", REMEDIES[first])
-    standing = _standing(folder, usable, notes) if first == "markers" else [t for t in usable if t.static]
+    found = Choice(there, left_out=[f"{t.name} (no {first})" for t in folder.trials if t not in there])
+    usable, still = _readable(folder, found, c3d_unit) if first == "markers" else (there, [])
+    standing = [t for t in usable if t.static]
+    if folder.kind == TRIALS and first == "markers":
+        standing = _standing(usable, still, found.notes)
     if command == "scale":
         if len(standing) != 1:
-            what = f"{len(standing)} trials are static" + (
-                f": {listed(tuple(t.name for t in standing))}" if standing else ""
-            )
+            names = f": {listed(tuple(t.name for t in standing))}" if standing else ""
+            what = "; ".join([f"{len(standing)} trials are static{names}", *found.notes])
             raise InputError(folder.root, "", what, f"say which one with `trial`: {choices(folder)}")
-        return standing
-    return [t for t in usable if t not in standing] or usable
+        moving = [f"{t.name} (not static)" for t in usable if t not in standing]
+        return Choice(standing, found.notes, found.left_out + moving)
+    rest = [t for t in usable if t not in standing]
+    stood = [f"{t.name} (static{' by its name' if t.static else ''})" for t in standing] if rest else []
+    return Choice(rest or usable, found.notes, found.left_out + stood)
 
 
-def _standing(folder: ToolFolder, usable: list[FolderTrial], notes: list[str]) -> list[FolderTrial]:
-    """Static trials by name and, in a laboratory's folder, by standing still; where both differ a note says so."""
+def _readable(folder: ToolFolder, found: Choice, c3d_unit: str | None) -> tuple[list[FolderTrial], list[FolderTrial]]:
+    """Trials of one file of markers that can be read, and which of a laboratory's stand still.
+
+    Others are left out with a note; InputError where none can be read.
+    """
+    refusals: dict[str, InputError] = {}
+    still = []
+    for trial in found.trials:
+        try:
+            if trial.rival is not None:
+                raise InputError(folder.root, "", _rivals(trial), RIVALS)
+            if folder.kind == TRIALS and trial.markers is not None:
+                still += [trial] if _stands_still(_read(trial.markers, c3d_unit)) else []
+        except InputError as error:
+            refusals[trial.name] = error
+    if len(refusals) == len(found.trials):
+        raise next(iter(refusals.values()))
+    found.notes.extend(f"trial {name} is left out: {error}" for name, error in refusals.items())
+    return [t for t in found.trials if t.name not in refusals], still
+
+
+def _read(file: Path, c3d_unit: str | None) -> MarkerTrajectories:
+    """Markers without the warnings that the command itself gives."""
+    with python_warnings.catch_warnings():
+        python_warnings.simplefilter("ignore", InputWarning)
+        return read_markers(file, c3d_unit)
+
+
+def _standing(usable: list[FolderTrial], still: list[FolderTrial], notes: list[str]) -> list[FolderTrial]:
+    """Static trials of a laboratory by name, else by standing still; where both differ a note says so."""
     named = [t for t in usable if t.static]
-    if folder.kind != TRIALS:
-        return named
-    still = [t for t in usable if _stands_still(t.markers)]
     moved = f"its name says static, and its markers move by more than {1e3 * STILL:.0f} mm"
     notes += [f"{t.name}: {moved}" for t in named if t not in still]
     unnamed = [t for t in still if t not in named]
@@ -175,11 +249,8 @@ def _standing(folder: ToolFolder, usable: list[FolderTrial], notes: list[str]) -
     return unnamed
 
 
-def _stands_still(file: Path | None) -> bool:
+def _stands_still(seen: MarkerTrajectories) -> bool:
     """Whether 95 % of all places are within `STILL` of the mean of their marker."""
-    if file is None:
-        return False
-    seen = read_markers(file)
     there = np.isfinite(seen.positions).all(axis=2).any(axis=0)
     places = seen.positions[:, there]
     off = np.linalg.norm(places - np.nanmean(places, axis=0), axis=2)
@@ -202,6 +273,7 @@ def _options(
     if command == PLANAR:
         warnings += _of_the_plane(folder, trial, typed, found)
     if command == "id" and not {"loads", "plates"} & typed:
+        _refuse_unused_plates(trial)
         if trial.loads is not None:
             found["loads"] = str(trial.loads)
         else:
@@ -219,6 +291,17 @@ def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str],
         return [f"{folder.kind}: no plates belong to {trial.name}: its study follows coordinates alone; else `plates`"]
     found["plates"] = str(read_external_loads(trial.loads)[0])
     return []
+
+
+def _refuse_unused_plates(trial: FolderTrial) -> None:
+    """InputError where the trial's .c3d holds force plates, of which the folder does not say what stands on them."""
+    if trial.loads is not None or trial.markers is None or trial.markers.suffix.lower() != ".c3d":
+        return
+    count = sum(name.startswith("force_") for name in read_c3d_plates(trial.markers))
+    if count:
+        what = f"holds {counted(count, 'force plate')}, and the folder does not say which body stands on them"
+        remedy = f"give `plates` {trial.markers} `plate` 1=calcn_r, or name the .mot file in place of the folder"
+        raise InputError(trial.markers, "", what, remedy)
 
 
 def _model(folder: ToolFolder, trial: FolderTrial) -> Path:
@@ -255,10 +338,12 @@ def _of_mass(folder: ToolFolder, model: Path) -> list[str]:
 def _parts(
     command: str, folder: ToolFolder, trial: FolderTrial, recording: Path, options: Mapping[str, str]
 ) -> tuple[FolderPart, ...]:
-    """Every file that is used and its part."""
+    """Every file that is used and its part; one outside of the folder by its own path."""
 
     def part(name: str, file: str | Path, of: str = "", note: str = "") -> FolderPart:
-        return FolderPart(name, Path(file).relative_to(folder.root).as_posix(), of, note)
+        path = Path(file)
+        below = path.relative_to(folder.root) if path.is_relative_to(folder.root) else path
+        return FolderPart(name, below.as_posix(), of, note)
 
     rows = [part("static trial" if command == "scale" else FIRST[command], recording, trial.name, trial.note)]
     if "model" in options:

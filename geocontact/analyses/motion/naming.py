@@ -16,7 +16,8 @@ from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.marker_sets import MARKER_SETS, PLACES, Side, normalised
+from geocontact.data.multibody.body_places import PLACES, Side
+from geocontact.data.multibody.marker_sets import KEYPOINTS, MARKER_SETS, normalised
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.dynamics.inverse_kinematics import FEWEST
@@ -25,8 +26,9 @@ from geocontact.view.page.content import Table
 
 AUTO = "auto"
 SOFT = 0.1
-"""Weight of wands and clusters against 1 of bony places, before a static pose has moved them."""
+"""Weight of wands and clusters that a table placed against 1 of the others, before a static pose has moved them."""
 
+PLACED = "placed by the table"
 Where = tuple[str, Side]
 LENGTHS = {
     "femur": ("femur{s}", "tibia{s}", 0.396),
@@ -59,12 +61,15 @@ class Coverage:
         Labels of the set.
     further
         Place by recorded label of other sets, which all give it this one.
+    donors
+        Sets that such a label is of, in words.
     """
 
     name: str
     found: Mapping[str, Where]
     size: int
     further: Mapping[str, Where] = field(default_factory=dict)
+    donors: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def words(self) -> str:
@@ -105,8 +110,23 @@ def recognised(labels: Sequence[str], source: str, naming: str = AUTO) -> Covera
         what = f"no marker set is recognised ({most})" if naming == AUTO else f"is not the recording's set ({most})"
         raise InputError(source, "`naming`", what, f"recorded are {listed(tuple(labels), 30)}; give `markers_map`")
     best = fitting[0]
-    _refuse_tie(best, fitting[1:], source)
-    return replace(best, further=_further(labels, best.found, every))
+    _refuse_twice(best, source)
+    for other in fitting[1:]:
+        if differ := _tie(best, other):
+            what = f"{best.words} and {other.words}: both fit, and differ in {listed(differ)}"
+            raise InputError(source, "`naming`", what, f"name one: `naming` {best.name}")
+    further, donors = _further(labels, best.found, every)
+    return replace(best, further=further, donors=donors)
+
+
+def _refuse_twice(best: Coverage, source: str) -> None:
+    """InputError where two labels are one label of the set, or name one place: two subjects, or a marker twice."""
+    seen: dict[object, str] = {}
+    for label, where in best.found.items():
+        for key in (normalised(label), where if PLACES[where[0]].at is not None else label):
+            if seen.setdefault(key, label) != label:
+                what = f"{best.words}: {seen[key]} and {label} are one place"
+                raise InputError(source, "`naming`", what, "give a recording of one subject, a marker for each place")
 
 
 ALIKE = 0.5
@@ -120,21 +140,28 @@ def _differ(best: Coverage, other: Coverage) -> tuple[str, ...]:
     return tuple(label for label, where in best.found.items() if other.found.get(label) != where)
 
 
-def _refuse_tie(best: Coverage, others: Sequence[Coverage], source: str) -> None:
-    for other in others:
-        if len(best.found) < best.size and best.size >= ALIKE * other.size and (differ := _differ(best, other)):
-            what = f"{best.words} and {other.words}: both fit, and differ in {listed(differ)}"
-            raise InputError(source, "`naming`", what, f"name one: `naming` {best.name}")
+def _tie(best: Coverage, other: Coverage) -> tuple[str, ...]:
+    """Labels in which another set that fits as well as the best one differs from it."""
+    return _differ(best, other) if len(best.found) < best.size and best.size >= ALIKE * other.size else ()
 
 
-def _further(labels: Sequence[str], known: Mapping[str, Where], every: Sequence[Coverage]) -> dict[str, Where]:
-    """Labels of other sets that mean one place in all of them, at places where nothing is yet."""
+def _further(
+    labels: Sequence[str], known: Mapping[str, Where], every: Sequence[Coverage]
+) -> tuple[dict[str, Where], dict[str, str]]:
+    """Labels of other sets that mean one place in all of them, at places where nothing is yet; and of which sets.
+
+    One label, or a few of many, is no sign of a set; and keypoints of video have the names of joints whose markers
+    others put on the skin.
+    """
     found: dict[str, Where] = {}
+    donors: dict[str, str] = {}
+    there = [e for e in every if len(e.found) >= max(FEWEST, ALIKE * e.size) and e.name != KEYPOINTS]
     for label in labels:
         means = {each.found[label] for each in every if label in each.found}
-        if label not in known and len(means) == 1 and (where := means.pop()) not in {**known, **found}.values():
-            found[label] = where
-    return found
+        of = [each.words for each in there if label in each.found]
+        if label not in known and of and len(means) == 1 and (where := means.pop()) not in {**known, **found}.values():
+            found[label], donors[label] = where, ", ".join(of)
+    return found, donors
 
 
 @dataclass(frozen=True)
@@ -157,9 +184,9 @@ class Naming:
 
     @property
     def weights(self) -> dict[str, float]:
-        """Weights by marker: 1 of bony places, less of wands and clusters."""
-        bony = {each.label: each.where is None or PLACES[each.where[0]].bony for each in self.labels}
-        return {m.name: 1.0 if bony[m.name] else SOFT for m in self.model.markers}
+        """Weights by marker: 1, and less of wands and clusters that the table placed."""
+        soft = {n.label for n in self.labels if n.how == PLACED and n.where is not None and not PLACES[n.where[0]].bony}
+        return {m.name: SOFT if m.name in soft else 1.0 for m in self.model.markers}
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -169,7 +196,7 @@ class Naming:
     def _set_of(self, label: str) -> str:
         if label in self.coverage.found:
             return self.coverage.name
-        return "several" if label in self.coverage.further else ""
+        return self.coverage.donors.get(label, "")
 
     def table(self) -> pd.DataFrame:
         """A row for each recorded label."""
@@ -216,14 +243,18 @@ def named_markers(model: Multibody, seen: MarkerTrajectories, naming: str) -> Na
 
 
 def _own_places(model: Multibody) -> dict[Where, Marker]:
-    """Markers of the model by place, of the set that most of them belong to; empty where it has none."""
+    """Markers of the model by place, of the set that most of them belong to; empty where it has none.
+
+    Labels to which another set that fits as well gives another place are left out.
+    """
     by = {m.name: m for m in model.markers}
     known = coverages(tuple(by))
     if not known or len(known[0].found) < FEWEST:
         return {}
     found: dict[Where, Marker] = {}
+    unclear = {label for other in known[1:] for label in _tie(known[0], other)}
     for label, where in known[0].found.items():
-        if PLACES[where[0]].at is not None:  # a cluster's markers cannot be told apart
+        if label not in unclear and PLACES[where[0]].at is not None:  # a cluster's markers cannot be told apart
             found.setdefault(where, by[label])
     return found
 
@@ -245,7 +276,7 @@ def _marker_of(
         return None, "not used: no named place"
     x, y, z = place.at
     location = sizes[body] * np.array([x, y, -z if where[1] == "l" else z])
-    return Marker(label, body, location), "placed by the table"
+    return Marker(label, body, location), PLACED
 
 
 def _body(place: str, side: Side) -> str:
@@ -295,7 +326,7 @@ def _said(choices: Sequence[Sequence[tuple[str | None, str | None]]], bodies: Se
 
 
 def _report(coverage: Coverage, labels: Sequence[NamedLabel], seen: MarkerTrajectories) -> None:
-    placed = tuple(n.label for n in labels if n.how == "placed by the table")
+    placed = tuple(n.label for n in labels if n.how == PLACED)
     unused = tuple(n.label for n in labels if n.how.startswith("not used"))
     used = len(labels) - len(unused)
     if used < FEWEST:
@@ -307,6 +338,11 @@ def _report(coverage: Coverage, labels: Sequence[NamedLabel], seen: MarkerTrajec
     reserve(f"{seen.source}: labels are taken for {coverage.words}{also}; {used} markers are used, as naming.csv lists")
     if placed:
         what = f"the model has no marker for {listed(placed)}"
-        reserve(f"{what}: placed from a table, to within 1 to 3 cm; scaling to a static pose moves them")
+        reserve(
+            f"{what}: placed from a table, 2 cm off in the median and up to 7 cm; scaling to a static pose moves them"
+        )
+    if coverage.further:
+        of = "; ".join(f"{label} of {coverage.donors[label]}" for label in coverage.further)
+        reserve(f"{seen.source}: labels of other sets are used besides: {of}")
     if unused:
         reserve(f"{seen.source}: labels that are not used: {listed(unused)}")

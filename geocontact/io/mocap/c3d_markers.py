@@ -16,6 +16,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import Arrays, point_metre, read_apart
 from geocontact.io.mocap.trc import without_subject
+from geocontact.io.text.file_preflight import read_bytes
 
 
 def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> MarkerTrajectories:
@@ -26,7 +27,13 @@ def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> 
     behind the last one, are passed over with one warning.
     """
     file = fspath(path)
-    arrays = read_apart(path, __name__, analogs=False)
+    try:
+        arrays = read_apart(path, __name__, analogs=False)
+    except InputError:
+        _refuse_segments(path)
+        raise
+    if not arrays["positions"].size:
+        _refuse_segments(path)
     metre, rate = point_metre(file, str(arrays["unit"]), c3d_unit), float(arrays["rate"])
     positions = np.asarray(arrays["positions"], float)
     positions = np.where(np.all(positions == 0.0, axis=2, keepdims=True), np.nan, positions)
@@ -39,6 +46,17 @@ def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> 
     lost = np.any(~np.isfinite(positions), axis=2)
     time = float(arrays["start"]) + np.arange(len(positions)) / rate
     return MarkerTrajectories(time, np.where(lost[..., None], np.nan, metre * positions), names, file)
+
+
+HEAD = 65_536
+"""Bytes of a .c3d that hold the labels of its segments."""
+
+
+def _refuse_segments(path: str | PathLike[str]) -> None:
+    """InputError for poses of segments in place of points, as Theia writes them: labels such as pelvis_4X4."""
+    if b"pelvis_4X4" in read_bytes(path)[:HEAD]:
+        what = "holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
+        raise InputError(path, "ROTATION:LABELS", what, "export markers or joint centres as .trc or .c3d")
 
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:

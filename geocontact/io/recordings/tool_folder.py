@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import read_bytes, read_json, read_text_bytes
+from geocontact.io.text.file_preflight import read_json, read_text_bytes
 from geocontact.io.text.tables import listed
 from geocontact.io.text.toml_text import toml_of
 
@@ -36,17 +36,19 @@ OPENCAP, ADDBIOMECHANICS, POSE2SIM, TRIALS = (
     "folder of trials",
 )
 METADATA, SUBJECT, CONFIG = "sessionMetadata.yaml", "_subject.json", "Config.toml"
-STATIC = re.compile(
-    r"(?<![a-z])(static|stat|cal|calib|calibration|stand|standing|neutral|t-?pose)(?![a-z])", re.IGNORECASE
-)
+STATIC = frozenset({"static", "stat", "cal", "calib", "calibration", "neutral", "tpose"})
 """Words in the name of a trial of standing still, where no other letters adjoin: walk_cal01, not calf or state."""
+UPRIGHT = frozenset({"stand", "standing"})
+MOVES = frozenset(("to", "up", "down", "from", "sit", "sitting", "sts", "chair", "rise", "raise", "get", "reach")) | {
+    *("leg", "legs", "legged", "limb", "foot", "one", "single", "tandem"),
+    *("squat", "jump", "hop", "walk", "walking", "turn", "step", "lunge"),
+}
+"""Words beside `stand` that make a movement of it, or standing on one leg."""
 SCALED = ("match_markers_and_physics", "match_markers_but_ignore_physics", "final", "optimized_scale_and_markers")
 """Models that AddBiomechanics fits to the subject, the last step first."""
 GENERIC = ("unscaled_generic", "unscaled_but_with_optimized_markers")
 DEEPEST, MOST_FILES = 4, 20_000
 LARGEST_TEXT = 1_000_000
-HEAD = 65_536
-"""Bytes of a .c3d that hold the labels of its segments."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,11 @@ class FolderPerson:
 
 @dataclass(frozen=True)
 class FolderTrial:
-    """Files of one trial; `model` where it has one of its own, `static` where its name says that somebody stands."""
+    """Files of one trial.
+
+    `model` is one of its own, `static` whether its name says that somebody stands, `rival` a second file of its
+    markers, which leaves it open which is meant.
+    """
 
     name: str
     markers: Path | None = None
@@ -76,6 +82,7 @@ class FolderTrial:
     model: Path | None = None
     static: bool = False
     note: str = ""
+    rival: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -210,29 +217,34 @@ def _rank(stem: str, augmented: bool) -> int:
 
 
 def _laboratory(root: Path) -> ToolFolder | None:
-    markers: dict[str, Path] = {}
-    for file in (*_named(root, ".c3d"), *_named(root, ".trc")):
-        if file.stem in markers:
-            what = f"{markers[file.stem].name} and {file.name} are of one trial"
-            raise InputError(root, "", what, "name the file that is meant, or leave one of them there")
-        _refuse_segments(file)
-        markers[file.stem] = file
+    recorded, exported = _by_stem(root, ".c3d"), _by_stem(root, ".trc")
+    markers = {**exported, **recorded}
     if not markers:
         return None
     motions = {**_by_stem(root, ".mot"), **_by_stem(root, ".mot", "_ik")}
-    trials = [FolderTrial(name, file, motions.get(name), static=_is_static(name)) for name, file in markers.items()]
+    trials = [
+        FolderTrial(
+            name,
+            file,
+            motions.get(name),
+            static=_is_static(name),
+            rival=exported.get(name) if name in recorded else None,
+        )
+        for name, file in markers.items()
+    ]
     return ToolFolder(TRIALS, root, tuple(sorted(trials, key=lambda t: t.name)), tuple(_named(root, ".osim")))
 
 
-def _refuse_segments(file: Path) -> None:
-    """InputError for poses of segments, as Theia writes them: labels such as pelvis_4X4 in the group ROTATION."""
-    if file.suffix.lower() == ".c3d" and b"pelvis_4X4" in read_bytes(file)[:HEAD]:
-        what = "holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
-        raise InputError(file, "ROTATION:LABELS", what, "export markers or joint centres as .trc or .c3d")
-
-
 def _is_static(name: str) -> bool:
-    return STATIC.search(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)) is not None
+    """Whether a name says so.
+
+    >>> [_is_static(name) for name in ("P1_cal01", "staticTrial", "T-pose", "stand2", "sit_to_stand1", "oneLegStand")]
+    [True, True, True, True, False, False]
+    """
+    posed = re.sub(r"(?<![a-z])t[-_ ]?pose(?![a-z])", "tpose", name, flags=re.IGNORECASE)
+    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", posed)
+    words = set(re.findall("[a-z]+", apart.lower()))
+    return bool(words & STATIC or (words & UPRIGHT and not words & MOVES))
 
 
 def _files(root: Path) -> Iterator[Path]:
@@ -265,7 +277,8 @@ def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
 def _count_of_others(found: ToolFolder) -> int:
     used = {*found.models[:1], *found.generic[:1]} | ({found.person.file} if found.person else set())
     for trial in found.trials:
-        used |= {each for each in (trial.markers, trial.coordinates, trial.loads, trial.model) if each is not None}
+        own = (trial.markers, trial.rival, trial.coordinates, trial.loads, trial.model)
+        used |= {each for each in own if each is not None}
     return sum(file not in used for file in _files(found.root))
 
 

@@ -14,6 +14,7 @@ from geocontact.analyses.motion.checked_trial import check_trial, standing_on
 from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
 from geocontact.analyses.motion.naming import Naming, named_markers
+from geocontact.analyses.motion.scale.measured_lengths import doubt_lengths
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
@@ -57,7 +58,9 @@ def read(o: ScaleOptions) -> Standing:
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
     texts = o.scale if o.scale or naming is None else naming.measures
-    factors = factors_told(model, _measured(o, model, whole, texts), texts)
+    measured = _measured(o, model, whole, texts)
+    factors = factors_told(model, measured, texts)
+    doubt_lengths(model, measured, texts, named=naming is not None and not o.scale)
     return Standing(model, whole, seen, factors, marker_tasks(model, seen, o.tasks, naming=naming), naming)
 
 

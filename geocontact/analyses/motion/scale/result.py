@@ -122,13 +122,14 @@ class ScaleResult(Result):
         o, standing = self.options, self.standing
         write_trc(folder / "seen.trc", standing.recorded)
         model = seen_from_results(o.model)
+        markers = "" if o.marker_set is None else seen_from_results(o.marker_set)
         if standing.naming is not None:  # OpenSim's tool needs the markers under these labels
-            model = "model.osim"
+            model, markers = "model.osim", ""
             write_scaled_model(o.model, folder / model, standing.model, {})
         write_scale_setup(
             folder / "setup_scale.xml",
             model,
-            "" if o.marker_set is None else seen_from_results(o.marker_set),
+            markers,
             "seen.trc",
             self.factors,
             standing.tasks,
