@@ -11,12 +11,13 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_090, "everything": 87_580}
+ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_500, "everything": 88_560}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
 controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the
-plane, pairs of bodies, keys and checks of made pages; marker sets, folders and an exoskeleton of one's own."""
+plane, pairs of bodies, keys and checks of made pages; marker sets, folders, an exoskeleton and a person of one's
+own, picked landmarks, bodies at rest on several others."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -46,9 +47,9 @@ LIMITS = {
     "how-to/paraview.md": 300,
     "how-to/pressure.md": 570,
     "how-to/prosthesis.md": 1540,
-    "how-to/regions_and_sides.md": 330,
+    "how-to/regions_and_sides.md": 430,
     "how-to/shoulder.md": 1060,
-    "how-to/shoulder_support.md": 930,
+    "how-to/shoulder_support.md": 1040,
     "how-to/sit_to_stand.md": 1110,
     "how-to/sit_to_stand_design.md": 340,
     "how-to/units.md": 360,
@@ -69,7 +70,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1080,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1700,
+    "reference/written_files.md": 1730,
     "theory/centre_of_pressure.md": 590,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -83,7 +84,7 @@ LIMITS = {
     "theory/mat_draping.md": 1070,
     "theory/multibody.md": 690,
     "theory/planar_joint.md": 500,
-    "reference/descriptions.md": 3870,
+    "reference/descriptions.md": 4200,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
     "theory/prosthesis_compare.md": 790,

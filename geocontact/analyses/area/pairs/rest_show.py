@@ -40,7 +40,7 @@ def rest_curves(r: RestingBodies) -> CurveSheet:
         ("Displacement from the recorded pose", "mm", slice(0, 3), lambda values: values * MM),
         ("Turn from the recorded pose", "deg", slice(3, 6), np.degrees),
     ):
-        curves = []
+        curves: list[Curve] = []
         for k, (body, one) in enumerate(r.pressing.free.items()):
             for j in range(*part.indices(6)):
                 if one.free[j]:
