@@ -102,7 +102,7 @@ class FolderInputs:
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChosenTrials:
     """Trials that are used, doubts about them, and those left out with the reason."""
 
     trials: list[FolderTrial]
@@ -174,7 +174,7 @@ def _rivals(trial: FolderTrial) -> str:
 REMEDIES = {"coordinates": "compute them first: geocontact ik", "markers": "is the folder complete?"}
 
 
-def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: str | None) -> Choice:
+def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: str | None) -> ChosenTrials:
     """Trials with the file that the command begins with; the static ones for `scale` only, unless they are named."""
     first = FIRST[command]
     strange = [name for name in wanted if name not in [t.name for t in folder.trials]]
@@ -184,11 +184,11 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
         chosen = [t for t in folder.trials if t.name in wanted]
         for trial in chosen:
             _recording(command, folder, trial)
-        return Choice(chosen)
+        return ChosenTrials(chosen)
     there = [t for t in folder.trials if (t.markers if first == "markers" else t.coordinates) is not None]
     if not there:
         raise InputError(folder.root, "", f"no trial has {first}", REMEDIES[first])
-    found = Choice(there, left_out=[f"{t.name} (no {first})" for t in folder.trials if t not in there])
+    found = ChosenTrials(there, left_out=[f"{t.name} (no {first})" for t in folder.trials if t not in there])
     usable, still = _readable(folder, found, c3d_unit) if first == "markers" else (there, [])
     standing = [t for t in usable if t.static]
     if folder.kind == TRIALS and first == "markers":
@@ -199,13 +199,15 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
             what = "; ".join([f"{len(standing)} trials are static{names}", *found.notes])
             raise InputError(folder.root, "", what, f"say which one with `trial`: {choices(folder)}")
         moving = [f"{t.name} (not static)" for t in usable if t not in standing]
-        return Choice(standing, found.notes, found.left_out + moving)
+        return ChosenTrials(standing, found.notes, found.left_out + moving)
     rest = [t for t in usable if t not in standing]
     stood = [f"{t.name} (static{' by its name' if t.static else ''})" for t in standing] if rest else []
-    return Choice(rest or usable, found.notes, found.left_out + stood)
+    return ChosenTrials(rest or usable, found.notes, found.left_out + stood)
 
 
-def _readable(folder: ToolFolder, found: Choice, c3d_unit: str | None) -> tuple[list[FolderTrial], list[FolderTrial]]:
+def _readable(
+    folder: ToolFolder, found: ChosenTrials, c3d_unit: str | None
+) -> tuple[list[FolderTrial], list[FolderTrial]]:
     """Trials of one file of markers that can be read, and which of a laboratory's stand still.
 
     Others are left out with a note; InputError where none can be read.
