@@ -26,6 +26,8 @@ STL_ASCII = BALL.export(file_type="stl_ascii").encode()
 PLY = BALL.export(file_type="ply")
 PLY_ASCII = BALL.export(file_type="ply", encoding="ascii")
 OBJ = BALL.export(file_type="obj").encode()
+OFF = BALL.export(file_type="off").encode()
+OFF_HEAD = b"OFF\n3 1 0\n"
 HTML = b"<!DOCTYPE html>\n<html><body>404 not found" + b" " * 500 + b"</body></html>\n"
 FACET = b"facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 50 0 0\nvertex 0 50 0\nendloop\nendfacet\n"
 
@@ -198,6 +200,33 @@ MALFORMED = {
     "inf of an unused vertex.obj": (b"v 0 0 0\nv 50 0 0\nv 0 50 0\nv 0 0 inf\nf 1 2 3\n", "vertex 3"),
     "corner.obj": (b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3.0\n", "'3.0' is not a face corner"),
     "binary.obj": (STL, "not an OBJ file"),
+    "page.off": (HTML, "looks like an HTML page"),
+    "gzip.off": (gzip.compress(OFF), "looks like a gzip archive"),
+    "off inside.obj": (OFF, "looks like an OFF file; name it .off"),
+    "obj inside.off": (OBJ, "not an OFF file"),
+    "binary.off": (b"OFF BINARY\n\0\0", "is a binary OFF file"),
+    "4 dimensions.off": (OFF_HEAD.replace(b"OFF", b"4OFF"), "'4OFF' files have coordinates of another number than 3"),
+    "keyword later.off": (b"a\nOFF\n3 1 0\n" + VERTICES.encode() + b"3 0 1 2\n", "not an OFF file"),
+    "no counts.off": (b"OFF\n", "0 numbers where the counts"),
+    "one count.off": (b"OFF\n3\n", "line 2: 1 numbers where the counts"),
+    "count.off": (b"OFF\n3.0 1 0\n", "line 2: counts of vertices and faces: '3.0' is not a whole number"),
+    "no faces.off": (b"OFF\n3 0 0\n" + VERTICES.encode(), "no faces"),
+    "4e9 vertices.off": (b"OFF\n4000000000 1 0\n", "4000000000 vertices, more than"),
+    "vertices missing.off": (b"OFF\n9 1 0\n" + VERTICES.encode(), "its counts declare 9 vertices, the file has 3"),
+    "faces missing.off": (OFF[: OFF.rstrip().rfind(b"\n") + 1], "its counts declare 80 faces, the file has 79"),
+    "one face more.off": (OFF + b"3 0 1 2\n", "line 125: more rows than its counts declare"),
+    "cut in a face.off": (OFF_HEAD + VERTICES.encode() + b"3 0 1\n", "line 6: faces: 2 numbers follow"),
+    "two corners.off": (OFF_HEAD + VERTICES.encode() + b"2 0 1\n", "face 0: has 2 corners"),
+    "negative corners.off": (OFF_HEAD + VERTICES.encode() + b"-3 0 1 2\n", "line 6: faces: 3 numbers follow"),
+    "index.off": (OFF_HEAD + VERTICES.encode() + b"3 0 1 3\n", "vertex index 3 is outside 0 to 2"),
+    "negative index.off": (OFF_HEAD + VERTICES.encode() + b"3 0 1 -1\n", "vertex index -1 is outside 0 to 2"),
+    "index of a fraction.off": (OFF_HEAD + VERTICES.encode() + b"3 0 1 2.5\n", "line 6: faces: '2.5' is not a whole"),
+    "two coordinates.off": (OFF_HEAD + b"0 0\n50 0 0\n0 50 0\n3 0 1 2\n", "line 3: vertices: a row of 2 numbers"),
+    "four coordinates.off": (OFF_HEAD + b"0 0 0 1\n50 0 0\n0 50 0\n3 0 1 2\n", "line 3: vertices: a row of 4 numbers"),
+    "word.off": (OFF_HEAD + b"0 0 0\n5O 0 0\n0 50 0\n3 0 1 2\n", "line 4: vertices: '5O' is not a number"),
+    "decimal comma.off": (OFF_HEAD + b"0 0 0\n50,0 0 0\n0 50 0\n3 0 1 2\n", "export it with decimal points"),
+    "nan.off": (OFF_HEAD + b"0 0 0\nnan 0 0\n0 50 0\n3 0 1 2\n", "face 0 (vertex 1)"),
+    "no area.off": (OFF_HEAD + b"0 0 0\n50 0 0\n20 0 0\n3 0 1 2\n", "none of its faces (1) has an area"),
     "external entity.vtp": (vtp(head=ENTITY, points="&e;"), "document type"),
     "billion laughs.vtp": (vtp(head=LAUGHS, points="&b;"), "document type"),
     "truncated.vtp": (vtp()[:-30], "not well-formed"),
@@ -219,7 +248,7 @@ MALFORMED = {
     "lz4.vtp": (vtp(attributes='type="PolyData" compressor="vtkLZ4DataCompressor"'), "vtkLZ4DataCompressor"),
     "base64.vtp": (vtp(points="AAAA!").replace(b'"ascii"', b'"binary"', 1), "Points: cannot be read"),
     "nowhere.vtp": (vtp().replace(b'format="ascii"', b'format="appended" offset="99"', 1), "offset 99 is outside"),
-    "mesh.3mf": (zipped(), "not one of the formats that are read (.stl, .ply, .obj, .vtp)"),
+    "mesh.3mf": (zipped(), "not one of the formats that are read (.stl, .ply, .obj, .off, .vtp)"),
     "mesh": (STL, "not one of the formats"),
     "mesh.stl.gz": (gzip.compress(STL), "not one of the formats"),
 }
@@ -261,10 +290,11 @@ def test_unknown_unit_is_refused_with_the_known_ones(tmp_path, unit):
         read_mesh(path, unit)
 
 
-@pytest.mark.parametrize("name", ["ball.stl", "ascii.stl", "ball.ply", "ascii.ply", "ball.obj", "ball.vtp"])
+@pytest.mark.parametrize("name", ["ball.stl", "ascii.stl", "ball.ply", "ascii.ply", "ball.obj", "ball.off", "ball.vtp"])
 def test_too_many_faces_are_refused(tmp_path, monkeypatch, name):
     path = tmp_path / name
     data = {"ball.stl": STL, "ascii.stl": STL_ASCII, "ball.ply": PLY, "ascii.ply": PLY_ASCII, "ball.obj": OBJ}
+    data |= {"ball.off": OFF}
     path.write_bytes(data.get(name, ball_vtp()))
     monkeypatch.setattr(mesh_checks, "MAX_FACES", 79)
     with pytest.raises(InputError, match=r"80 faces.*, more than the 79 that are read; decimate"):
@@ -290,9 +320,11 @@ def test_running_out_of_memory_is_said(tmp_path, monkeypatch):
         read_mesh(path, "mm")
 
 
-@pytest.mark.parametrize(("name", "data"), [("cut.obj", OBJ.rstrip()), ("cut.ply", PLY_ASCII.rstrip())])
+@pytest.mark.parametrize(
+    ("name", "data"), [("cut.obj", OBJ.rstrip()), ("cut.off", OFF.rstrip()), ("cut.ply", PLY_ASCII.rstrip())]
+)
 def test_missing_last_line_end_is_warned_about(tmp_path, name, data):
-    """Neither format has an end mark: `f 12 13 145` cut to `f 12 13 14` is valid, the missing line end tells."""
+    """None of these formats has an end mark: `f 12 13 145` cut to `f 12 13 14` is valid, the missing line end tells."""
     path = tmp_path / name
     path.write_bytes(data)
     with pytest.warns(InputWarning, match=f"^{name}: the last line has no line end"):
@@ -338,14 +370,17 @@ def declared_faces(name: str, data: bytes) -> int:
         return {e.name: e.rows for e in read_header(data, name).elements}["face"]
     if name == "ball.obj":
         return sum(line.split()[:1] == [b"f"] for line in data.splitlines())
+    if name == "ball.off":
+        return int(data.split()[2])
     return int(data.split(b'NumberOfPolys="')[1].split(b'"')[0])
 
 
-@pytest.mark.parametrize("name", ["ball.stl", "ascii.stl", "ball.ply", "ascii.ply", "ball.obj", "ball.vtp"])
+@pytest.mark.parametrize("name", ["ball.stl", "ascii.stl", "ball.ply", "ascii.ply", "ball.obj", "ball.off", "ball.vtp"])
 def test_mutated_files_are_refused_or_read_whole(tmp_path, name):
     """Only InputError may escape; what is read is finite and has as many faces as the file declares."""
     valid = {
-        "ball.stl": STL, "ascii.stl": STL_ASCII, "ball.ply": PLY, "ascii.ply": PLY_ASCII, "ball.obj": OBJ
+        "ball.stl": STL, "ascii.stl": STL_ASCII, "ball.ply": PLY, "ascii.ply": PLY_ASCII, "ball.obj": OBJ,
+        "ball.off": OFF
     }.get(name, ball_vtp())  # fmt: skip
     path = tmp_path / name
     read = 0

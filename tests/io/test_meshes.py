@@ -65,6 +65,7 @@ def save_vtp(folder: Path, mode: int, base64: bool, compressed: bool, big_endian
         ("ply", {}, np.float32),
         ("ply", {"encoding": "ascii"}, np.float32),
         ("obj", {"digits": 17, "include_normals": True}, np.float64),
+        ("off", {"digits": 17}, np.float64),
     ],
 )
 def test_round_trip_is_exact(tmp_path, extension, options, kind):
@@ -76,6 +77,37 @@ def test_round_trip_is_exact(tmp_path, extension, options, kind):
     assert len(mesh.vertices) == len(BALL.vertices), "coincident corners of the soup are merged"
     assert mesh.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
     assert (mesh.name, mesh.unit) == (path.name, "mm")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "OFF\n4 4 6\n{}{}",
+        "OFF 4 4\n{}{}",
+        "# a bone\n\nOFF # of 2019\r\n\n4 4 0 # counts\n{}# faces\n\n{}",
+        "COFF\n4 4 0\n{colours}{}",
+        "STCNOFF\n4 4 0\n{colours}{coloured}",
+    ],
+)
+def test_off_in_every_way_that_it_is_written(tmp_path, text):
+    corners, faces = ["0 0 0", "50 0 0", "0 5e1 0", "0 0 +50.0"], ["3 0 2 1", "3 0 1 3", "3 0 3 2", "3 1 2 3"]
+    rows = {
+        "colours": "".join(f"{row} 255 0 0 255\n" for row in corners),
+        "coloured": "".join(f"{row}  0.1 0.2 0.3\n" for row in faces),
+    }
+    plain = "".join(f"{row}\n" for row in corners), "".join(f"{row}\n" for row in faces)
+    left = [part for part, name in zip(plain, ("colours", "coloured"), strict=True) if f"{{{name}}}" not in text]
+    mesh = read_mesh(write_obj(tmp_path, text.format(*left, **rows), "bone.off"), "mm")
+    np.testing.assert_array_equal(mesh.vertices, 50e-3 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]]))
+    np.testing.assert_array_equal(mesh.faces, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_polygons_of_off_keep_their_place_among_triangles(tmp_path):
+    """trimesh alone puts the triangles first."""
+    text = "OFF\n5 2 0\n0 0 0\n50 0 0\n50 50 0\n0 50 0\n0 0 50\n4 0 1 2 3\n3 0 4 1\n"
+    with pytest.warns(InputWarning, match=r"bone\.off: 1 polygon with more than 3 corners"):
+        mesh = read_mesh(write_obj(tmp_path, text, "bone.off"), "mm")
+    np.testing.assert_array_equal(mesh.faces, [[0, 1, 2], [0, 2, 3], [0, 4, 1]])
 
 
 @pytest.mark.parametrize("wide", [False, True])

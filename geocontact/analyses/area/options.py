@@ -67,7 +67,7 @@ class AreaOptions(Options):
     Parameters
     ----------
     moving
-        Mesh that moves (.stl .ply .obj .vtp).
+        Mesh that moves (.stl .ply .obj .off .vtp).
     fixed
         Mesh in whose frame results are given.
     unit

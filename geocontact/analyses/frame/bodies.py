@@ -150,7 +150,7 @@ def read_surface(path: str | PathLike[str], unit: str, assume_closed: bool = Fal
     Parameters
     ----------
     path
-        `.stl`, `.ply`, `.obj` or `.vtp`; see `read_mesh`.
+        `.stl`, `.ply`, `.obj`, `.off` or `.vtp`; see `read_mesh`.
     unit
         Unit of the file's numbers. Never guessed.
     assume_closed

@@ -35,7 +35,7 @@ class ShapeOptions(Options):
     Parameters
     ----------
     mesh
-        Surface to fit to (.stl .ply .obj .vtp).
+        Surface to fit to (.stl .ply .obj .off .vtp).
     shape
         What is fitted.
     unit

@@ -1,1 +1,1 @@
-"""Mesh files: STL, PLY, OBJ, VTP."""
+"""Mesh files: STL, PLY, OBJ, OFF, VTP."""

@@ -1,4 +1,4 @@
-"""Surface meshes: STL, PLY, OBJ and VTP to vertices in metres and faces."""
+"""Surface meshes: STL, PLY, OBJ, OFF and VTP to vertices in metres and faces."""
 
 from __future__ import annotations
 
@@ -21,13 +21,14 @@ from geocontact.io.mesh.mesh_checks import (
     require_plausible,
 )
 from geocontact.io.mesh.obj import read_obj
+from geocontact.io.mesh.off import read_off
 from geocontact.io.mesh.ply import read_ply
 from geocontact.io.mesh.stl import read_stl, space_of_stl
 from geocontact.io.mesh.vtp import read_vtp
 from geocontact.io.text.file_preflight import read_bytes
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
-READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".vtp": read_vtp}
+READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".vtp": read_vtp}
 """Reader of each file name extension; no other file is opened."""
 TABLES = (".csv", ".txt", ".xyz")
 
@@ -42,7 +43,8 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     Parameters
     ----------
     path
-        `.stl` (ASCII, binary), `.ply` (ASCII, binary), `.obj` or `.vtp`; the content must be what the name says.
+        `.stl` (ASCII, binary), `.ply` (ASCII, binary), `.obj`, `.off` (ASCII) or `.vtp`; the content must be what the
+        name says.
     unit
         Unit of the file's numbers: m, cm, mm or in. Never guessed.
     plausible

@@ -84,7 +84,7 @@ class DescribedBody(Document):
     name
         What pairs call it.
     mesh
-        Its surface: .stl, .ply, .obj or .vtp.
+        Its surface: .stl, .ply, .obj, .off or .vtp.
     motion
         Its poses over time (.csv, or rows of numbers); at rest without.
     segment

@@ -75,9 +75,10 @@ _LOOKS = (
     (rb"# vtk DataFile", "a legacy VTK file", "save it as .vtp or .stl"),
     (rb"ply\s", "a PLY file", "name it .ply"),
     (rb"(?i)\s*solid\b", "an ASCII STL file", "name it .stl"),
+    (rb"(?:\s|#[^\n]*\n)*(?:ST)?C?N?4?n?OFF\s", "an OFF file", "name it .off"),
     (rb"%PDF", "a PDF document", "export the surface again"),
     (rb"\x89PNG|\xff\xd8\xff|GIF8", "a picture", "export the surface again"),
-    (rb"glTF", "a binary glTF file", "convert it to .stl, .ply, .obj or .vtp"),
+    (rb"glTF", "a binary glTF file", "convert it to .stl, .ply, .obj, .off or .vtp"),
     (rb"[\t\n\r\x20-\x7e]{1,512}\Z", "plain text", "export the surface again"),
 )
 
