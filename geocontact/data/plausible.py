@@ -186,6 +186,7 @@ PIECE = Plausible("the edge of a piece of a surface", mm, (1e-3, 100.0), (0.02, 
 FITTED = Plausible("the radius within which curvatures are fitted", mm, (0.05, 200.0), (0.5, 20.0))
 RADIUS = Plausible("the radius of a contact", mm, (0.1, 10_000.0), (1.0, 1000.0))
 STRIP = Plausible("the length of a contact", mm, (0.1, 10_000.0), (1.0, 1000.0))
+MERGED = Plausible("the distance within which vertices are merged", mm, (1e-9, 5.0), (1e-7, 0.2))
 BORDER = Plausible("the border of a mat", mm, (0.0, 500.0), (0.0, 100.0))
 DEPTH = Plausible("a depth of contact", mm, (1e-3, 200.0), (0.05, 30.0))
 SHIFT = Plausible("how far things are off", mm, (0.0, 500.0), (0.0, 50.0))

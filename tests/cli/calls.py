@@ -19,6 +19,7 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from geocontact.cli.main import run
+from geocontact.io.mesh.meshes import read_mesh
 from meshes.stl import FACET
 from tests.drawing import unwritten
 
@@ -194,3 +195,11 @@ def agree(ours: pd.DataFrame, theirs: pd.DataFrame, areas: float = 1e-6, lengths
             continue
         rel, atol = (areas, areas) if name.endswith("[mm^2]") else (0.0, lengths)
         np.testing.assert_allclose(ours[name], theirs[name], rtol=rel, atol=atol, err_msg=name)
+
+
+def in_metres(folder: Path, mesh: Path) -> Path:
+    """A mesh in mm written in m with all digits, so that what is read has the same bits."""
+    found = read_mesh(mesh, "mm")
+    rows = ["v {!r} {!r} {!r}".format(*row) for row in found.vertices.tolist()]
+    rows += ["f {} {} {}".format(*row) for row in (found.faces + 1).tolist()]
+    return written(folder / f"{mesh.stem}.obj", "\n".join(rows) + "\n")

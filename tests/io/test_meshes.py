@@ -20,7 +20,8 @@ from hypothesis import strategies as st
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.mesh import repeated_faces
 from geocontact.io.mesh.faces import read_face_indices
-from geocontact.io.mesh.mesh_checks import SIZES, degenerate, merge_coincident, require_plausible
+from geocontact.io.mesh.merging import merge_coincident
+from geocontact.io.mesh.mesh_checks import SIZES, degenerate, require_plausible
 from geocontact.io.mesh.meshes import READERS, read_mesh
 from geocontact.io.text.units import ANGLE, LENGTH, split_header
 

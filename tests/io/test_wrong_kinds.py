@@ -355,6 +355,7 @@ kinetic = { value = 0.7, unit = "-" }
     "pairs": Description(
         read_pairs,
         """unit = "mm"
+merge_tolerance = { value = 0.001, unit = "mm" }
 model = "a.osim"
 coordinates = "a.csv"
 angles = "deg"
@@ -364,6 +365,7 @@ rate = { value = 100, unit = "Hz" }
 name = "femur"
 mesh = "a.stl"
 motion = "a.csv"
+unit = "cm"
 place = "a.csv"
 closed = true
 [[bodies]]

@@ -18,9 +18,11 @@ from geocontact.analyses.frame import places
 from geocontact.analyses.frame.bodies import (
     check_surfaces,
     chosen_faces,
+    naming_unit_of_moving,
     read_body_and_outer,
     refuse_two_spaces,
     typed_axis,
+    unit_of_moving,
 )
 from geocontact.analyses.frame.collector import add_input, reserve, say
 from geocontact.analyses.frame.shared_options import MedialSide, medial_side, refuse_other_axes
@@ -341,8 +343,13 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     if o.markers is not None:
         add_input("`markers`", o.markers)
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
-    moving, outer_moving = read_body_and_outer("moving", o.moving, o.unit, o.place_moving, closed["moving"])
-    fixed, outer_fixed = read_body_and_outer("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    with naming_unit_of_moving(o):
+        moving, outer_moving = read_body_and_outer(
+            "moving", o.moving, unit_of_moving(o), o.place_moving, closed["moving"], o.merge_tolerance
+        )
+    fixed, outer_fixed = read_body_and_outer(
+        "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"], o.merge_tolerance
+    )
     refuse_two_spaces(moving, fixed)
     beside = (*(Path(each).name for each in o.motion or ()), *(() if o.side is None else (f"`side` {o.side}",)))
     check_surfaces(moving, fixed, bodies=o.bodies, layered=o.pressure, beside=beside)
@@ -395,7 +402,7 @@ def _settings(o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Su
         rule=o.rule,
         refinement=refinement,
         fixed_faces=chosen_faces("`region`", o.region, fixed, o.unit),
-        moving_faces=chosen_faces("`region_moving`", o.region_moving, moving, o.unit),
+        moving_faces=chosen_faces("`region_moving`", o.region_moving, moving, unit_of_moving(o)),
         split=None if split is None else split[0],
         medial_side=0 if split is None else split[1].sign,
         sensitivity=tuple((max(o.threshold) or ZERO_REACH) * SENSITIVITY),

@@ -41,6 +41,7 @@ from geocontact.data.plausible import (
     FITTED,
     FRAME_RATE,
     LAYER_RATIO,
+    MERGED,
     PIECE,
     SHARE,
     SHIFT,
@@ -72,6 +73,8 @@ class AreaOptions(Options):
         Mesh in whose frame results are given.
     unit
         Unit of both meshes; never guessed.
+    unit_moving
+        Unit of MOVING's mesh, of `place_moving` and of `region_moving` where it is not `unit`.
 
     Motion
     ------
@@ -112,6 +115,9 @@ class AreaOptions(Options):
         Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
         The same for FIXED.
+    merge_tolerance
+        Merge vertices of both meshes that lie within this distance, where corners that faces share differ by rounding;
+        a warning has how many, and the largest shift. Only equal ones by default.
     adduction
         Turn MOVING in every frame about this axis of FIXED, through MOVING's origin: axis and angle, typed x=2 or x=-2
         (degrees).
@@ -236,6 +242,7 @@ class AreaOptions(Options):
     fixed: Path
     _: KW_ONLY
     unit: MeshUnit
+    unit_moving: MeshUnit | None = None
     motion: Annotated[tuple[str, ...] | None, Spelled(rest=True)] = None
     motion_fixed: Annotated[
         tuple[str, ...] | None,
@@ -269,6 +276,7 @@ class AreaOptions(Options):
     axis: Annotated[Expression | None, Requires("sweep")] = None
     place_moving: str | None = None
     place_fixed: str | None = None
+    merge_tolerance: Annotated[Length | None, MERGED] = None
     adduction: Turn | None = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     outer: Literal["moving", "fixed", "both"] | None = None

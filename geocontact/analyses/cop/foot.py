@@ -107,11 +107,11 @@ def ground_of(o: CopOptions) -> Ground:
         raise InputError("", "`ground`", what, "write plane:nx,ny,nz,offset, stairs:h0,x1:h1, or name a mesh")
     if o.unit is None:
         raise InputError("", "`unit`", "is missing: mesh files carry no unit", "pass `unit` mm, cm, m or in")
-    return _mesh(path, o.unit)
+    return _mesh(path, o.unit, o.merge_tolerance)
 
 
-def _mesh(path: Path, unit: str) -> Ground:
-    mesh = read_mesh(path, unit, plausible=SIZES)
+def _mesh(path: Path, unit: str, merge_tolerance: float | None) -> Ground:
+    mesh = read_mesh(path, unit, plausible=SIZES, merge_tolerance=merge_tolerance)
     surface = Surface.of(mesh)
     add_input("ground", path, sha256=mesh.sha256, unit=unit, faces=len(mesh.faces), closed=surface.topology.closed)
     warn_of_inner_surfaces(surface)

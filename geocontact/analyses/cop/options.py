@@ -19,7 +19,18 @@ from geocontact.analyses.frame.marks import (
     Typed,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.data.plausible import CUTOFF, DAMPING, DEPTH, EXPONENT, FORCE, FRICTION, SPEED, SPHERE, Plausible
+from geocontact.data.plausible import (
+    CUTOFF,
+    DAMPING,
+    DEPTH,
+    EXPONENT,
+    FORCE,
+    FRICTION,
+    MERGED,
+    SPEED,
+    SPHERE,
+    Plausible,
+)
 from geocontact.data.units import mm
 
 FOOT_LENGTH = Plausible("the length of a foot", mm, (10.0, 1000.0), (100.0, 400.0))
@@ -50,6 +61,8 @@ class CopOptions(Options):
         from x1 on, y up), or a mesh; plane:0,1,0,0 by default.
     unit
         Unit of the ground's mesh; never guessed.
+    merge_tolerance
+        Merge vertices of the mesh that lie within this distance; only equal ones by default.
 
     The centre
     ----------
@@ -128,6 +141,7 @@ class CopOptions(Options):
     body: str | None = None
     ground: Expression | None = None
     unit: MeshUnit | None = None
+    merge_tolerance: Annotated[Length | None, MERGED, Requires("unit", "it is for a mesh")] = None
     point: Literal["ground", "sphere"] = "ground"
     gate: Annotated[float, FORCE] = 20.0
     toe: Literal["x", "-x", "y", "-y", "z", "-z"] | None = None

@@ -4,7 +4,8 @@ can be signed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from types import MappingProxyType
@@ -144,7 +145,9 @@ def read_body_motion(file: Path, o: MotionOptions) -> Motion:
 NOTHING: Mapping[str, Values] = MappingProxyType({})
 
 
-def read_surface(path: str | PathLike[str], unit: str, assume_closed: bool = False) -> Surface:
+def read_surface(
+    path: str | PathLike[str], unit: str, assume_closed: bool = False, merge_tolerance: float | None = None
+) -> Surface:
     """Surface of a mesh file whose numbers are in `unit` (m, cm, mm or in), ready for queries.
 
     Parameters
@@ -155,6 +158,8 @@ def read_surface(path: str | PathLike[str], unit: str, assume_closed: bool = Fal
         Unit of the file's numbers. Never guessed.
     assume_closed
         Take it for the boundary of a body although edges are open, so that distances inside it are negative.
+    merge_tolerance
+        Distance [m] within which vertices are merged; see `read_mesh`.
 
     Raises
     ------
@@ -168,34 +173,83 @@ def read_surface(path: str | PathLike[str], unit: str, assume_closed: bool = Fal
     >>> ball.vertices.shape, ball.faces.shape, ball.closed
     ((1442, 3), (2880, 3), True)
     """
-    return Surface.of(read_mesh(path, unit), assume_closed)
+    return Surface.of(read_mesh(path, unit, merge_tolerance=merge_tolerance), assume_closed)
 
 
-def read_body(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
+class UnitsOfBodies(Protocol):
+    """Options of two bodies whose meshes may be in two units."""
+
+    @property
+    def unit(self) -> str:
+        """Unit of FIXED, and of MOVING by default."""
+
+    @property
+    def unit_moving(self) -> str | None:
+        """Unit of MOVING where it is another one."""
+
+
+def unit_of_moving(o: UnitsOfBodies) -> str:
+    """Unit of MOVING's mesh and of places on it."""
+    return o.unit_moving or o.unit
+
+
+@contextmanager
+def naming_unit_of_moving(o: UnitsOfBodies) -> Iterator[None]:
+    """A remedy that speaks of `unit` is one about `unit_moving` where that is given."""
+    try:
+        yield
+    except InputError as error:
+        if o.unit_moving is None:
+            raise
+        remedy = error.remedy.replace("`unit`", "`unit_moving`")
+        raise InputError(error.file, error.place, error.what, remedy) from error
+
+
+def read_body(
+    role: str,
+    path: Path,
+    unit: str,
+    placement: str | None,
+    assume_closed: bool,
+    merge_tolerance: float | None = None,
+) -> Surface:
     """Surface of one body in its body frame; warns of what about it needs care.
 
-    `placement` is that of `read_input_surface`.
+    `placement` and `merge_tolerance` are those of `read_input_surface`.
     """
-    surface = read_input_surface(role, path, unit, placement, assume_closed)
+    surface = read_input_surface(role, path, unit, placement, assume_closed, merge_tolerance)
     _warn_of_sides(role, surface)
     return surface
 
 
 def read_body_and_outer(
-    role: str, path: Path, unit: str, placement: str | None, assume_closed: bool
+    role: str,
+    path: Path,
+    unit: str,
+    placement: str | None,
+    assume_closed: bool,
+    merge_tolerance: float | None = None,
 ) -> tuple[Surface, UnitedSurface | None]:
     """The same, and its outer surface where closed surfaces of the file lie inside or across others, not warned of."""
-    surface = _read_surface(role, path, unit, placement, assume_closed)
+    surface = _read_surface(role, path, unit, placement, assume_closed, merge_tolerance)
     _warn_of_sides(role, surface)
     return surface, united(surface)
 
 
-def read_input_surface(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool = False) -> Surface:
+def read_input_surface(
+    role: str,
+    path: Path,
+    unit: str,
+    placement: str | None,
+    assume_closed: bool = False,
+    merge_tolerance: float | None = None,
+) -> Surface:
     """Surface in its body frame; says which anatomical axes its file names, warns of closed surfaces inside others.
 
-    `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`.
+    `placement` is a text file with a 4x4 matrix (translation in the mesh unit), or `model.osim:body[:mesh]`;
+    `merge_tolerance` [m] is that of `read_mesh`.
     """
-    surface = _read_surface(role, path, unit, placement, assume_closed)
+    surface = _read_surface(role, path, unit, placement, assume_closed, merge_tolerance)
     warn_of_inner_surfaces(surface)
     return surface
 
@@ -207,8 +261,10 @@ def warn_of_inner_surfaces(surface: Surface) -> None:
         reserve(f"{found.reservation}; if they are not surface, remove them from the file")
 
 
-def _read_surface(role: str, path: Path, unit: str, placement: str | None, assume_closed: bool) -> Surface:
-    mesh = read_mesh(path, unit)
+def _read_surface(
+    role: str, path: Path, unit: str, placement: str | None, assume_closed: bool, merge_tolerance: float | None
+) -> Surface:
+    mesh = read_mesh(path, unit, merge_tolerance=merge_tolerance)
     if placement is not None:
         mesh = _placed(role, mesh, placement, unit)
     surface = Surface.of(mesh, assume_closed)

@@ -53,6 +53,7 @@ def landmarks_on(option: str, file: Path, surface: Surface, unit: str) -> Landma
 
 def check_mesh(found: Landmarks, surface: Surface, unit: str) -> None:
     """Refuse landmarks of another mesh or unit; a reservation for those that are off the surface."""
+    unit = unit if surface.file is None else surface.file.unit
     if found.unit and found.unit != unit:
         remedy = "pick them again on the page of this mesh and unit, or correct `unit`"
         raise InputError(found.path, "", f"was picked in {found.unit}, and the mesh is read in {unit}", remedy)

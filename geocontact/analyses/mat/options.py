@@ -21,7 +21,7 @@ from geocontact.analyses.frame.marks import (
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, FRICTION, SHARE, TOUCH
+from geocontact.data.plausible import BORDER, CLOCK, CUTOFF, DISPLACEMENT, FORCE, FRICTION, MERGED, SHARE, TOUCH
 
 TimeWindows = Annotated[
     tuple[tuple[float, float], ...], Typed("s", "windows", "((0.0, 0.5), (9.0, 9.5))"), CLOCK, Spelled(dashed=True)
@@ -43,6 +43,8 @@ class MatOptions(Options):
         Scan of the body that the mat lies on.
     unit
         Length unit of the scan; never guessed.
+    merge_tolerance
+        Merge vertices of scan and body model that lie within this distance; only equal ones by default.
 
     Where the mat lies
     ------------------
@@ -170,6 +172,7 @@ class MatOptions(Options):
     _: KW_ONLY
     surface: Path
     unit: MeshUnit
+    merge_tolerance: Annotated[Length | None, MERGED] = None
     landmarks: Path | None = None
     scan_with_mat: Annotated[
         Path | None, Excludes("landmarks", "with `landmarks` says twice where the mat lies", "give one of them")

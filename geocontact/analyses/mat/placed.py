@@ -127,7 +127,7 @@ def read(o: MatOptions) -> MatInputs:
     """Everything the options name."""
     recorded, listed_dead = read_recording(o)
     motion = read_segment_motion(o)
-    scan = read_input_surface("surface", o.surface, o.unit, None)
+    scan = read_input_surface("surface", o.surface, o.unit, None, merge_tolerance=o.merge_tolerance)
     return MatInputs(
         recorded,
         read_shear(recorded, o),

@@ -94,7 +94,11 @@ def read_body_model(scan: Surface, o: MatOptions) -> BodyModel | None:
     """Landmarks and, where the fit is by shape, the surface; None where results stay in the scan's frame."""
     if o.body_landmarks is None:
         return None
-    body = None if o.body is None else read_input_surface("body", o.body, o.body_unit or o.unit, None)
+    body = (
+        None
+        if o.body is None
+        else read_input_surface("body", o.body, o.body_unit or o.unit, None, merge_tolerance=o.merge_tolerance)
+    )
     more = () if o.picked_on_body else BODY
     seen = read_landmarks(o.body_landmarks, more, LANDMARKS if o.picked_on_body else EXAMPLE)
     add_input("`body_landmarks`", o.body_landmarks, landmarks=len(seen.names))
@@ -191,7 +195,7 @@ def read_second_scan(scan: Surface, o: MatOptions) -> SecondScan | None:
     """The scan with the mat on; None where there is none."""
     if o.scan_with_mat is None:
         return None
-    surface = read_input_surface("scan with the mat", o.scan_with_mat, o.unit, None)
+    surface = read_input_surface("scan with the mat", o.scan_with_mat, o.unit, None, merge_tolerance=o.merge_tolerance)
     corner = None if o.first_corner is None else np.array(typed_centre("`first_corner`", o.first_corner, scan, o.unit))
     return SecondScan(surface, corner)
 

@@ -118,7 +118,7 @@ def read(o: ShapeOptions) -> ShapeInputs:
     if o.paraview:
         require_pyvista()
     with listener().preparing():
-        surface = read_input_surface("mesh", o.mesh, o.unit, o.place)
+        surface = read_input_surface("mesh", o.mesh, o.unit, o.place, merge_tolerance=o.merge_tolerance)
         if surface.inside_out:
             reserve(f"{surface.name}: faces point inwards; taken the other way round")
         axis = _axis(surface, o)
@@ -159,7 +159,9 @@ def _names(surface: Surface, axis: Axis | None, o: ShapeOptions) -> Mapping[str,
     if o.centre is not None:
         found |= about(surface, typed_centre("`centre`", o.centre, surface, o.unit), None, LENGTH[o.unit])
     if o.other is not None:
-        other = read_input_surface("other", o.other, o.unit, o.place_other)
+        other = read_input_surface(
+            "other", o.other, o.unit_other or o.unit, o.place_other, merge_tolerance=o.merge_tolerance
+        )
         check_surfaces(surface, other, ("mesh", "`other`"))
         found |= about_other(surface, other, LENGTH[o.unit])
         if not other.closed and o.region is not None and "distance" in o.region:

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
 from geocontact.analyses.checks import refuse
-from geocontact.analyses.frame.marks import Degrees, Excludes, Expression, MeshUnit, Requires, Spelled, Typed
+from geocontact.analyses.frame.marks import Degrees, Excludes, Expression, Length, MeshUnit, Requires, Spelled, Typed
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import Medial, Side, medial_side
-from geocontact.data.plausible import JOINT_ANGLE, Plausible
+from geocontact.data.plausible import JOINT_ANGLE, MERGED, Plausible
 from geocontact.data.units import deg
 
 NEEDS = {
@@ -59,10 +59,15 @@ class ShapeOptions(Options):
         Directions of 0 and 90 degrees of flexion as seen from the axis: -y,x has distal at -y and posterior at +x.
     other
         Mesh that the distance is to.
+    unit_other
+        Unit of the other mesh and of `place_other` where it is not `unit`.
     place
         Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_other
         The same for the other mesh, in the frame of the first.
+    merge_tolerance
+        Merge vertices of the meshes that lie within this distance, where corners that faces share differ by rounding; a
+        warning has how many, and the largest shift. Only equal ones by default.
 
     How it is fitted
     ----------------
@@ -110,8 +115,10 @@ class ShapeOptions(Options):
     )
     sagittal: Expression | None = None
     other: Path | None = None
+    unit_other: Annotated[MeshUnit | None, Requires("other", "give it too")] = None
     place: str | None = None
     place_other: Annotated[str | None, Requires("other", "give it too")] = None
+    merge_tolerance: Annotated[Length | None, MERGED] = None
     points: Literal["vertices", "faces"] = "vertices"
     robust: bool = True
     split: str | None = None

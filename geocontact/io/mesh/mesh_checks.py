@@ -1,4 +1,4 @@
-"""What is asked of a mesh once it is parsed, the largest that is read, and its polygons and vertices made plain."""
+"""What is asked of a mesh once it is parsed, the largest that is read, and its polygons made plain."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from geocontact.data.errors import InputError, InputWarning
-from geocontact.data.mesh import first_of_coincident, repeated_faces
+from geocontact.data.mesh import repeated_faces
 from geocontact.io.text.units import LENGTH, MESH_UNITS
 
 MAX_FACES = 20_000_000
@@ -29,27 +29,6 @@ def require_at_most(count: int, limit: int, noun: str, file: str) -> None:
     """Refuse `count` things called `noun` when there are more than `limit`."""
     if count > limit:
         raise InputError(file, "", f"{count} {noun}, more than the {limit} that are read", "decimate the mesh first")
-
-
-def merge_coincident(
-    vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"], file: str
-) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "m 3"]]:
-    """One vertex for all that are equal to the last bit; −0 equals 0.
-
-    Faces keep their order and corners, vertices the order in which they first appear. Vertices that no face uses are
-    left out with a warning. `vertices` must be finite.
-    """
-    vertices = vertices + vertices.dtype.type(0)  # −0 + 0 is +0
-    representative = first_of_coincident(vertices)
-    used = np.zeros(len(vertices), dtype=bool)
-    used[representative[faces]] = True
-    distinct = np.count_nonzero(representative == np.arange(len(vertices)))
-    unused = int(distinct - np.count_nonzero(used))
-    if unused:
-        noun = "vertices belong" if unused > 1 else "vertex belongs"
-        warnings.warn(InputWarning(f"{file}: {unused} {noun} to no face, left out"), stacklevel=3)
-    number = np.cumsum(used, dtype=np.int32) - 1
-    return vertices[used], number[representative][faces].astype(np.int64)
 
 
 def triangles(

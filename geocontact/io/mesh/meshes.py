@@ -12,10 +12,11 @@ from jaxtyping import Float, Int
 
 from geocontact.data.errors import InputError
 from geocontact.data.mesh import Mesh
+from geocontact.data.plausible import MERGED
+from geocontact.io.mesh.merging import merge_close, merge_coincident
 from geocontact.io.mesh.mesh_checks import (
     SIZES,
     check_faces,
-    merge_coincident,
     metres_per,
     require_finite,
     require_plausible,
@@ -33,7 +34,13 @@ READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_
 TABLES = (".csv", ".txt", ".xyz")
 
 
-def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, float] = SIZES) -> Mesh:
+def read_mesh(
+    path: str | PathLike[str],
+    unit: str,
+    *,
+    plausible: tuple[float, float] = SIZES,
+    merge_tolerance: float | None = None,
+) -> Mesh:
     """Read a triangle surface; vertices come back in metres.
 
     Face i of the mesh is face i of the file (polygons become consecutive triangles, with a warning). Coincident
@@ -49,6 +56,9 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
         Unit of the file's numbers: m, cm, mm or in. Never guessed.
     plausible
         Smallest and largest diagonal of the bounding box [m]; outside, the unit is taken to be wrong.
+    merge_tolerance
+        Distance [m] within which vertices are merged into their mean (`merge_close`), with a warning; only those that
+        are equal by default.
 
     Raises
     ------
@@ -63,6 +73,8 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
     >>> mesh.vertices.shape, float(abs(mesh.vertices).max().round(4))
     ((1442, 3), 0.02)
     """
+    if merge_tolerance is not None:
+        MERGED.require(merge_tolerance, "`merge_tolerance`")
     name = Path(fspath(path)).name
     scale = metres_per(unit, name)
     reader = READERS.get(Path(name).suffix.lower())
@@ -80,6 +92,8 @@ def read_mesh(path: str | PathLike[str], unit: str, *, plausible: tuple[float, f
         del data
         require_finite(vertices, faces, name)
         vertices, faces = merge_coincident(vertices, faces, name)
+        if merge_tolerance is not None:
+            vertices, faces = merge_close(vertices, faces, merge_tolerance, scale, name)
     except MemoryError as error:
         raise InputError(name, "", "does not fit into memory", "decimate the mesh first") from error
     require_plausible(vertices, unit, plausible, name)

@@ -52,6 +52,7 @@ from geocontact.data.plausible import (
     HELD_PLACE,
     HELD_TURN,
     LAYER,
+    MERGED,
     PIECE,
     PLACE_ON_BODY,
     YOUNG,
@@ -72,6 +73,7 @@ from geocontact.io.documents import (
     refusal,
 )
 
+MeshUnit = Literal["m", "cm", "mm", "in"]
 TOTAL = "total"
 """What columns of the sums over all pairs are called."""
 
@@ -85,6 +87,8 @@ class DescribedBody(Document):
         What pairs call it.
     mesh
         Its surface: .stl, .ply, .obj, .off or .vtp.
+    unit
+        Unit of its mesh; that of all by default.
     motion
         Its poses over time (.csv, or rows of numbers); at rest without.
     segment
@@ -97,6 +101,7 @@ class DescribedBody(Document):
 
     name: FileName
     mesh: File
+    unit: MeshUnit | None = None
     motion: File | None = None
     segment: Word | None = None
     place: Text | None = None
@@ -218,7 +223,7 @@ class PairsDescription(Document):
     Parameters
     ----------
     unit
-        Unit of all meshes.
+        Unit of all meshes, and of rows of matrices.
     bodies
         All bodies.
     pairs
@@ -235,9 +240,11 @@ class PairsDescription(Document):
         Frames per second of poses without times.
     free
         Bodies that come to rest.
+    merge_tolerance
+        Distance within which vertices of a mesh are merged.
     """
 
-    unit: Annotated[Literal["m", "cm", "mm", "in"], Field(examples=['"mm"'])]
+    unit: Annotated[MeshUnit, Field(examples=['"mm"'])]
     bodies: Annotated[tuple[DescribedBody, ...], Listed("body{number}", doubled)]
     pairs: Annotated[tuple[DescribedPair, ...], Listed("{moving}_{fixed}", doubled)]
     model: File | None = None
@@ -246,6 +253,7 @@ class PairsDescription(Document):
     order: Word | None = None
     rate: Annotated[float, WithUnit(FRAME_RATE)] | None = None
     free: Annotated[tuple[DescribedFree, ...], Rows] = ()
+    merge_tolerance: Annotated[float, WithUnit(MERGED)] | None = None
 
     @model_validator(mode="after")
     def _require_bodies(self) -> PairsDescription:

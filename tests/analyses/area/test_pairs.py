@@ -18,7 +18,7 @@ from geocontact.view.page.content import Scene, Table
 from meshes.simple_shapes import cup, sphere
 from meshes.stl import stl_bytes
 from tests.analyses.area.calls import area, pressed
-from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, call, done, unpictured, written
+from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, call, done, in_metres, unpictured, written
 from tests.closed_forms import sphere_cup_on_cup, sphere_sphere_on_first
 
 PATELLA = MESHES / "patella_right_coarse.stl"
@@ -79,6 +79,27 @@ def test_each_pair_is_its_single_run_to_the_last_digit(found: PairsResult, tmp_p
     )
     np.testing.assert_array_equal(totals["min_distance [mm]"], least)
     assert behind["area_fixed [mm^2]"].min() > 50.0, "the button lies in the groove in every frame"
+
+
+def test_a_body_in_a_unit_of_its_own_gives_the_same_rows(found: PairsResult, tmp_path: Path) -> None:
+    """The femur in m is MOVING of two pairs and FIXED of the third; a wrong unit is refused by its key."""
+    file = knee(tmp_path)
+    femur = in_metres(tmp_path, FEMUR).as_posix()
+    text = file.read_text("utf-8").replace(f'mesh = "{FEMUR.as_posix()}"', f'mesh = "{femur}"\nunit = "m"')
+    other = run(described(tmp_path, text))
+    same(other.table("pairs"), found.table("pairs"))
+    same(other.table(), found.table())
+    with pytest.raises(InputError, match=r"femoral.*: bounding box .*, pass `unit` m$"):
+        run(described(tmp_path, text.replace('unit = "m"', 'unit = "cm"')))
+    with pytest.raises(InputError, match=r"pairs\.toml \[\[bodies\]\] .*unit"):
+        run(described(tmp_path, text.replace('unit = "m"', 'unit = "km"')))
+
+
+def test_vertices_of_all_meshes_are_merged_within_a_tolerance(found: PairsResult, tmp_path: Path) -> None:
+    text = 'merge_tolerance = { value = 1e-4, unit = "mm" }\n' + knee(tmp_path).read_text("utf-8")
+    other = run(described(tmp_path, text))
+    same(other.table(), found.table())
+    assert sum("`merge_tolerance` has no effect" in line for line in other.warnings) == 3
 
 
 def turned(folder: Path, name: str, place: np.ndarray, turn: Rotation) -> Path:

@@ -13,7 +13,7 @@ import geocontact as gc
 from geocontact.analyses.frame.job import Job
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.motion.motion import read_motion
-from tests.cli.calls import FEMUR, INSERT, KNEE, MESHES, PLATE, SPHERE, call, done, gait, poses
+from tests.cli.calls import FEMUR, INSERT, KNEE, MESHES, PLATE, SPHERE, call, done, gait, in_metres, poses
 from tests.elsewhere import Elsewhere
 from tests.opensim_oracle import external_wrenches
 
@@ -74,6 +74,19 @@ def refused(job: Job, *meshes: Path, **options: object) -> str:
     with pytest.raises(InputError) as error:
         job(*meshes, unit="mm", side="right", **{**LAYER, **options})
     return str(error.value)
+
+
+def test_a_unit_for_each_body_gives_the_same_rest(motion: Path, tmp_path: Path) -> None:
+    """The point of the load is MOVING's, in its unit; the splitting plane and the region are FIXED's."""
+    given = {"motion": motion, "side": "right", "load": 1800.0, "region": "ny>0.25", "piece": gc.mm(1), **LAYER}
+    expected = gc.knee.settle(FEMUR, INSERT, unit="mm", split="z=1", load_point="0,5,1", **given).table()
+    femur = in_metres(tmp_path, FEMUR)
+    ours = gc.knee.settle(
+        femur, INSERT, unit="mm", unit_moving="m", split="z=1", load_point="0,0.005,0.001", **given
+    ).table()
+    pd.testing.assert_frame_equal(ours, expected)
+    with pytest.raises(InputError, match=r"femoral.*: bounding box .*, pass `unit_moving` m$"):
+        gc.knee.settle(femur, INSERT, unit="mm", unit_moving="cm", **given)
 
 
 def test_what_nothing_holds_is_refused_by_name(tmp_path: Path) -> None:

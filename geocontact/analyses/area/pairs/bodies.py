@@ -194,12 +194,13 @@ def _pair(
 
 @contextmanager
 def of_pair(description: Path, name: str) -> Iterator[None]:
-    """An InputError of no file is said to be of this pair of the description."""
+    """An InputError of no file is said to be of this pair of the description; each body's unit is its key `unit`."""
     try:
         yield
     except InputError as error:
         if error.file:
-            raise
+            remedy = error.remedy.replace("`unit_moving`", "`unit`")
+            raise InputError(error.file, error.place, error.what, remedy) from error
         place = f"[[pairs]] {name} {error.place}".rstrip()
         raise InputError(description, place, error.what, error.remedy) from error
 
@@ -234,7 +235,9 @@ def _asked(
     return AreaOptions(
         moving.mesh,
         fixed.mesh,
-        unit=described.unit,
+        unit=fixed.unit or described.unit,
+        unit_moving=None if moving.unit == fixed.unit else moving.unit or described.unit,
+        merge_tolerance=described.merge_tolerance,
         motion=(str(mover or fixed.motion or described.coordinates),),
         threshold=o.threshold,
         rule=o.rule,

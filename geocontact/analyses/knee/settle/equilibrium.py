@@ -17,9 +17,11 @@ from geocontact.analyses.frame.bodies import (
     chosen_faces,
     confined_modulus,
     measured_thickness,
+    naming_unit_of_moving,
     read_body,
     refuse_two_spaces,
     typed_centre,
+    unit_of_moving,
 )
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.shared_options import medial_side
@@ -114,8 +116,9 @@ def read(o: SettleOptions) -> SettleInputs:
     if o.paraview:
         require_pyvista()
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
-    moving = read_body("moving", o.moving, o.unit, o.place_moving, closed["moving"])
-    fixed = read_body("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"])
+    with naming_unit_of_moving(o):
+        moving = read_body("moving", o.moving, unit_of_moving(o), o.place_moving, closed["moving"], o.merge_tolerance)
+    fixed = read_body("fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"], o.merge_tolerance)
     refuse_two_spaces(moving, fixed)
     beside = (*(() if o.motion is None else (o.motion.name,)), f"`side` {o.side}")
     check_surfaces(moving, fixed, bodies=o.bodies, layered=True, beside=beside)
@@ -196,7 +199,7 @@ def _motion(o: SettleOptions, file: Path) -> Motion:
 def _point(o: SettleOptions, moving: Surface) -> Float[np.ndarray, " 3"]:
     """Point of MOVING that the load acts at [m]."""
     if o.load_point is not None:
-        return np.asarray(typed_centre("`load_point`", o.load_point, moving, o.unit), float)
+        return np.asarray(typed_centre("`load_point`", o.load_point, moving, unit_of_moving(o)), float)
     size = float(np.linalg.norm(moving.local[moving.used], axis=1).max())
     away = float(np.linalg.norm(moving.centre))
     if away > FAR * size:

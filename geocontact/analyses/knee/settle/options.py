@@ -21,7 +21,7 @@ from geocontact.analyses.frame.marks import (
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import BodyPair, PoseSd, Side, Sweep, Thickness, refuse_pose_sd
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import LAYER_RATIO, PIECE, SOFTER, SPRING, TURNED_SPRING, ByName, N, Plausible
+from geocontact.data.plausible import LAYER_RATIO, MERGED, PIECE, SOFTER, SPRING, TURNED_SPRING, ByName, N, Plausible
 
 MAY_SETTLE = ("adduction", "anterior", "mediolateral", "rotation")
 """Coordinates besides the axial one, which always settles, and flexion, which never does."""
@@ -62,6 +62,8 @@ class SettleOptions(Options):
         Tibial insert, the elastic layer, in whose frame results are given.
     unit
         Unit of both meshes; never guessed.
+    unit_moving
+        Unit of MOVING's mesh, of `place_moving` and of `load_point` where it is not `unit`.
     side
         Side of the body: which of +z and -z is medial, and which turns are varus and internal.
 
@@ -91,6 +93,9 @@ class SettleOptions(Options):
         Pose of the mesh in its body: a file with a 4x4 matrix, or model.osim:body.
     place_fixed
         The same for FIXED.
+    merge_tolerance
+        Merge vertices of both meshes that lie within this distance, where corners that faces share differ by rounding;
+        a warning has how many, and the largest shift. Only equal ones by default.
     assume_closed
         Treat a surface as closed although its edges do not show it.
 
@@ -162,6 +167,7 @@ class SettleOptions(Options):
     side: Side
     modulus: Annotated[Pressure, SOFTER]
     poisson: Annotated[float, LAYER_RATIO]
+    unit_moving: MeshUnit | None = None
     load: Annotated[float | None, LOAD] = None
     forces: Annotated[Path | None, Excludes("load", "says the load again", "give one"), READS_NO_FILE] = None
     free: Free = ("adduction",)
@@ -181,6 +187,7 @@ class SettleOptions(Options):
     angles: Annotated[AngleUnit | None, READS_NO_FILE] = None
     place_moving: str | None = None
     place_fixed: str | None = None
+    merge_tolerance: Annotated[Length | None, MERGED] = None
     assume_closed: Literal["moving", "fixed", "both"] | None = None
     thickness: Thickness | None = None
     foundation: Literal["linear", "logarithmic"] = "linear"
