@@ -256,7 +256,7 @@ def test_records_and_messages_name_the_argument_and_no_path(tmp_path: Path) -> N
 
 def test_files_of_values_go_with_the_result() -> None:
     held = InMemory()
-    given = held.replaced({"motion": TABLE, "moving": [TABLE, "b.csv"]}, None)
+    given = held.replaced({"motion": TABLE, "moving": [TABLE, "b.csv"]})
     file = Path(given["motion"])
     assert file.is_file() and file.name == "motion.csv" and given["moving"][1] == "b.csv"
     assert pd.read_csv(given["moving"][0]).equals(TABLE.reset_index(drop=True))
@@ -378,7 +378,7 @@ FILES = [
 @pytest.mark.parametrize(("job", "one"), FILES)
 def test_a_table_is_taken_wherever_a_file_is(job: Job[Any, Any], one: Declared) -> None:
     held = InMemory()
-    (file,) = np.atleast_1d(one.coerced(held.replaced({one.name: TABLE}, None)[one.name]))
+    (file,) = np.atleast_1d(one.coerced(held.replaced({one.name: TABLE})[one.name]))
     assert isinstance(file, Path) and pd.read_csv(file).equals(TABLE.reset_index(drop=True))
     assert held.spelled(str(file)) == f"`{one.name}` (DataFrame, 5 x 8)"
 
@@ -429,4 +429,4 @@ def test_numbers_of_several_motions_are_asked_for_one_by_one() -> None:
 )
 def test_an_array_that_is_no_motion_is_refused_with_what_is_wanted(value: object, what: str) -> None:
     with pytest.raises(InputError, match=re.escape(f"`motion`: {what} give 4 x 4 matrices")):
-        InMemory().replaced({"motion": value}, "mm")
+        InMemory().replaced({"motion": value, "unit": "mm"})

@@ -54,22 +54,25 @@ class InMemory:
     words: dict[str, str] = field(default_factory=dict)
     _folder: Path | None = None
 
-    def replaced(self, values: Mapping[str, Any], unit: object) -> dict[str, Any]:
+    def replaced(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Arguments of a call, with the path of a file for every value that an analysis reads from a file.
 
         Parameters
         ----------
         values
-            Arguments by name.
-        unit
-            Argument `unit` of the call: numbers of a geocontact surface are in metres, so that it has to be "m".
+            Arguments by name. Numbers of a geocontact surface are in metres, so that its unit has to be "m": that of
+            its own (`unit_moving` of `moving`, `body_unit` of `body`) where there is one, else `unit`.
 
         Raises
         ------
         InputError
             A value of a kind that is read from files, which holds nothing that could be written.
         """
-        return {name: self._one(name, value, unit) for name, value in values.items()}
+        found = {}
+        for name, value in values.items():
+            own = next((key for key in (f"unit_{name}", f"{name}_unit") if values.get(key) is not None), "unit")
+            found[name] = self._one(name, value, own, values.get(own))
+        return found
 
     def spelled(self, text: str) -> str:
         """A text in which the words stand for the files."""
@@ -83,12 +86,13 @@ class InMemory:
             return [self.plain(each) for each in value]
         return self.words.get(str(value), value) if isinstance(value, (str, Path)) else value
 
-    def _one(self, name: str, value: Any, unit: object) -> Any:
+    def _one(self, name: str, value: Any, own: str, unit: object) -> Any:
+        """A value, or the file it is written to; `own` is the argument that has its `unit`."""
         if isinstance(value, (tuple, list)):
-            return type(value)(self._one(name, each, unit) for each in value)
+            return type(value)(self._one(name, each, own, unit) for each in value)
         if name in POSES and isinstance(value, (int, float)):
             raise InputError("", f"`{name}`", "is a number", MATRICES_OR_TABLE)
-        made = _written(name, value, unit)
+        made = _written(name, value, own, unit)
         if made is None:
             return value
         if self._folder is None:
@@ -101,7 +105,7 @@ class InMemory:
         return fspath(file)
 
 
-def _written(name: str, value: Any, unit: object) -> Written | None:
+def _written(name: str, value: Any, own: str, unit: object) -> Written | None:
     """How a value is written; None for one that is no table, array or mesh."""
     kinds = {(each.__module__.partition(".")[0], each.__name__) for each in type(value).__mro__}
     if ("pandas", "DataFrame") in kinds:
@@ -112,7 +116,7 @@ def _written(name: str, value: Any, unit: object) -> Written | None:
         return _motion(value)
     if ("geocontact", "Surface") in kinds or ("geocontact", "Mesh") in kinds:
         if unit != METRES:
-            raise InputError("", f"`{name}`", "is a surface of geocontact, whose numbers are metres", 'give unit="m"')
+            raise InputError("", f"`{name}`", "is a surface of geocontact, whose numbers are metres", f'give {own}="m"')
         return _mesh(name, value.vertices, value.faces, type(value).__name__)
     if ("trimesh", "Trimesh") in kinds:
         return _mesh(name, value.vertices, value.faces, "Trimesh")

@@ -68,7 +68,7 @@ class Job(Generic[I, R]):
         require_arguments(self.command, self.options, inputs, options)
         held = InMemory()
         placed = dict(zip([one.name for one in declared(self.options) if one.positional], inputs, strict=False))
-        given = held.replaced(placed | options, options.get("unit"))
+        given = held.replaced(placed | options)
         try:
             asked = self.options(**given)
             asked.refuse_missing_files()

@@ -86,13 +86,13 @@ class DescribedBody(Document):
     name
         What pairs call it.
     mesh
-        Its surface: .stl, .ply, .obj, .off or .vtp.
+        Its surface.
     unit
-        Unit of its mesh; that of all by default.
+        Of its mesh.
     motion
-        Its poses over time (.csv, or rows of numbers); at rest without.
+        Its poses over time; at rest without.
     segment
-        In place of a motion: the body of `model` it is fixed to.
+        Instead of a motion: body of `model` it is on.
     place
         Place of the mesh in its body: file with a 4x4 matrix, or model.osim:body.
     closed
@@ -223,7 +223,7 @@ class PairsDescription(Document):
     Parameters
     ----------
     unit
-        Unit of all meshes, and of rows of matrices.
+        Unit of all meshes.
     bodies
         All bodies.
     pairs
@@ -233,15 +233,15 @@ class PairsDescription(Document):
     coordinates
         Its coordinates over time.
     angles
-        Unit of angles where a file does not say it.
+        Unit where a file does not say it.
     order
-        Order of intrinsic rotations of Euler angles.
+        Order of intrinsic rotations.
     rate
         Frames per second of poses without times.
     free
         Bodies that come to rest.
     merge_tolerance
-        Distance within which vertices of a mesh are merged.
+        As of `area`.
     """
 
     unit: Annotated[MeshUnit, Field(examples=['"mm"'])]
