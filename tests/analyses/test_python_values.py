@@ -241,6 +241,18 @@ def test_surfaces_of_geocontact_are_in_metres() -> None:
         gc.fit_shape(surface, shape="sphere", unit="mm")
 
 
+def test_a_surface_of_geocontact_beside_a_file_in_mm() -> None:
+    """Each body has its own unit: MOVING in m in memory, FIXED in mm in a file, and rows of poses like it."""
+    over = np.array([[1.0, 0, 0, 0, 0, 1, 0, 21, 0, 0, 1, 0]])
+    given: dict[str, Any] = {"unit": "mm", "motion": over, "rate": 1.0, "threshold": "4mm"}
+    surface = gc.read_surface(SAMPLES / "sphere_r20.stl", "mm")
+    plate = SAMPLES / "plate_80x80x12.stl"
+    ours = gc.area(surface, plate, unit_moving="m", **given).table()
+    pd.testing.assert_frame_equal(ours, gc.area(SAMPLES / "sphere_r20.stl", plate, **given).table())
+    with pytest.raises(gc.InputError, match='whose numbers are metres; give unit_moving="m"'):
+        gc.area(surface, plate, unit_moving="mm", **given)
+
+
 def test_records_and_messages_name_the_argument_and_no_path(tmp_path: Path) -> None:
     result = gc.area(trimesh.load(FEMUR), INSERT, unit="mm", motion=TABLE, threshold="4mm")
     told = json.loads((result.write(tmp_path / "out") / "run.json").read_text(encoding="utf-8"))

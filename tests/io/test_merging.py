@@ -10,10 +10,13 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.cop.foot import ground_of
+from geocontact.analyses.cop.options import CopOptions
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
 from meshes.simple_shapes import sphere
+from tests.analyses.mat.samples import shipped
 
 RADIUS, JITTER, TOLERANCE = 20.0, 2e-5, 3e-4
 """mm: each corner of each face is off by a normal error of its own."""
@@ -124,3 +127,24 @@ def test_vertices_that_hang_together_in_a_chain_are_refused(tmp_path: Path) -> N
 def test_a_tolerance_that_cannot_be_is_refused(tmp_path: Path, tolerance: float) -> None:
     with pytest.raises(InputError, match="merge_tolerance"):
         gc.read_surface(soup(tmp_path, jittered(), "a.stl"), "mm", merge_tolerance=tolerance)
+
+
+def test_the_ground_of_a_foot_is_merged_too(tmp_path: Path) -> None:
+    """Two triangles that share an edge but for 2e-5 mm are one sheet."""
+    corners = np.array([[[-1, 0, -1], [1, 0, 1], [1, 0, -1]], [[-1, 0, -1], [-1, 0, 1], [1, 0, 1]]], float)
+    corners[1, 0, 0] += 2e-8
+    asked = {"motion": tmp_path / "m.csv", "ground": soup(tmp_path, corners, "ground.stl").as_posix()}
+    with pytest.warns(InputWarning) as caught:
+        ground_of(CopOptions(tmp_path / "s.csv", unit="m", merge_tolerance=gc.mm(1e-4), **asked))
+    said = [str(one.message) for one in caught]
+    assert any(
+        "2 vertices within 0.0001 mm of each other merged into 1, moved by 1e-05 mm at most" in one for one in said
+    )
+    assert any("(4 open edges)" in one for one in said)
+    with pytest.raises(InputError, match="`merge_tolerance`: has no effect without `unit`"):
+        CopOptions(tmp_path / "s.csv", merge_tolerance=gc.mm(1e-4), motion=tmp_path / "m.csv")
+
+
+def test_the_scan_under_a_mat_is_merged_too() -> None:
+    found = shipped(merge_tolerance=gc.mm(1e-4)).warnings
+    assert any("thigh.stl: no two vertices lie within 0.0001 mm" in one for one in found)

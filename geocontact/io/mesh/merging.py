@@ -93,9 +93,9 @@ def _refuse_collapse(
         return
     face = int(np.argmin(np.where(lost, shortest, np.inf)))
     count = int(np.count_nonzero(lost))
-    what = f"`merge_tolerance` of {_mm(reach * scale)} mm would collapse {count} faces that have an area"
+    what = f"`merge_tolerance` of {_mm(reach * scale)} mm would collapse faces that have an area: {count}"
     what += f", of which this has the shortest edge, {_mm(shortest[face] * scale)} mm"
-    raise InputError(file, f"face {face}", what, "give less than that, or remove these faces from the file")
+    raise InputError(file, f"face {face}", what, "give less than that, or remove them from the file")
 
 
 def _refuse_chains(

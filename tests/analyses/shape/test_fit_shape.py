@@ -13,6 +13,7 @@ import geocontact as gc
 from geocontact.analyses.shape.result import ShapeResult
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.geometry.fit.cylinder import fit_cylinder
+from tests.cli.calls import in_metres
 
 MESHES = Path(__file__).resolve().parents[3] / "meshes"
 CYLINDER, SPHERE, CUP, PLATE, FEMUR, FINER = (
@@ -98,6 +99,16 @@ def test_inside_and_outside_of_a_cup_by_centre_and_by_the_ball_in_it(tmp_path: P
     assert (cavity.fitting.facing, back.fitting.facing) == ("concave", "convex")
     radii = [each.fit.radius for each in (cavity, back, near)]
     assert radii == pytest.approx([24e-3, 29e-3, 24e-3], abs=1e-6)
+
+
+def test_the_other_mesh_may_be_in_a_unit_of_its_own(tmp_path: Path) -> None:
+    """The distance stays in the unit of the mesh that is fitted."""
+    region = "distance<4.5"
+    near = fit(CUP, "sphere", other=SPHERE, region=region)
+    apart = fit(CUP, "sphere", other=in_metres(tmp_path, SPHERE), unit_other="m", region=region)
+    assert apart.fit.radius == near.fit.radius == pytest.approx(24e-3, abs=1e-6)
+    with pytest.raises(InputError, match="`unit_other`: has no effect without `other`"):
+        fit(CUP, "sphere", unit_other="m")
 
 
 def test_a_plate() -> None:
