@@ -95,6 +95,11 @@ def test_the_tolerance_does_not_depend_on_the_unit_of_the_file(tmp_path: Path, u
     with pytest.warns(InputWarning, match=r"within 0\.0003 mm"):
         mesh = read_mesh(soup(tmp_path, jittered() * per, "a.stl"), unit, merge_tolerance=gc.mm(TOLERANCE))
     assert Surface.of(mesh).closed
+    apart = jittered()
+    apart[4, 1, 0] += 2e-3  # mm: within a tolerance that is read in another unit, beyond this one
+    with pytest.warns(InputWarning, match="within"):
+        other = read_mesh(soup(tmp_path, apart * per, "b.stl"), unit, merge_tolerance=gc.mm(TOLERANCE))
+    assert len(other.vertices) == len(mesh.vertices) + 1
     radii = np.linalg.norm(mesh.vertices, axis=1)
     np.testing.assert_allclose(radii, 1e-3 * RADIUS, rtol=0, atol=1e-3 * 4 * JITTER)
 
