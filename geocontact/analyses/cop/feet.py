@@ -122,18 +122,21 @@ def floor_of(forces: ContactForces, o: CopOptions) -> HalfSpace:
     return HalfSpace((p, q, r), (x, y, z))
 
 
-def read_motions(o: CopOptions, bodies: Sequence[str]) -> list[Motion]:
-    """Poses of each body in the ground: through the chain of the model's joints, else of the one body."""
+def read_motions(o: CopOptions, bodies: Sequence[str]) -> tuple[list[Motion], float]:
+    """Poses of each body in the ground, through the chain of the model's joints, else of the one body.
+
+    The second is the weight of the model through whose chain they go [N], 0 without one.
+    """
     chained = o.spheres.suffix.lower() == MODEL and o.motion.suffix.lower() in COORDINATES
     if chained and (o.osim, o.joint, o.map) == (None, None, None):
         return _through_the_chain(o, bodies)
     if len(bodies) > 1:
         what = f"has the poses of one body, `body` names {len(bodies)}"
         raise InputError(o.motion, "", what, "give coordinates of the model (.mot .sto), without `osim`, `map`")
-    return [read_body_motion(o.motion, o)]
+    return [read_body_motion(o.motion, o)], 0.0
 
 
-def _through_the_chain(o: CopOptions, bodies: Sequence[str]) -> list[Motion]:
+def _through_the_chain(o: CopOptions, bodies: Sequence[str]) -> tuple[list[Motion], float]:
     model, table = read_multibody(o.spheres), read_table(o.motion)
     if o.order is not None:
         raise InputError("", "`order`", f"has no effect here: {o.motion} is read without it", "leave it out")
@@ -143,7 +146,20 @@ def _through_the_chain(o: CopOptions, bodies: Sequence[str]) -> list[Motion]:
     poses = model.poses(motion_of(table, model, o.angles))
     source = f"{o.motion.name} through the joints of {o.spheres.name}"
     add_input("motion", o.motion, frames=len(table.time), source=source)
-    return [Motion(table.time, poses[body], f"{body}: {source}", table.time_unit) for body in bodies]
+    motions = [Motion(table.time, poses[body], f"{body}: {source}", table.time_unit) for body in bodies]
+    return motions, model.weight
+
+
+HEAVY = 1.5
+"""Times the weight, mean force of the ground: over whole cycles it is 1 for all feet together (their momentum is as at
+first), and a part of a stride with a landing in it stays below."""
+
+
+def doubt_weight(pressing: Float[np.ndarray, " t"], weight: float, o: CopOptions) -> None:
+    """A reservation where the ground presses on average with much more than the model's weight [N]."""
+    if weight > 0.0 and pressing.mean() > HEAVY * weight:
+        what = f"mean force of the ground is {pressing.mean() / weight:.2g} times the weight of {o.spheres.name}"
+        reserve(f"{o.motion}: {what}: its feet go too deep, by a floor at another height or by errors of the motion")
 
 
 def seen_from_first(carriers: Sequence[Carrier]) -> SphereSet:

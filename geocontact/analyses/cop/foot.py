@@ -304,6 +304,8 @@ class Foot:
         Of all spheres.
     carriers
         Each body with its own spheres and motion, in the order of the spheres; of one foot or of several.
+    weight
+        Of the model through whose chain they move [N]; 0 without one.
     """
 
     name: str
@@ -313,6 +315,7 @@ class Foot:
     ground: Ground
     plate: ForcePlate | None
     carriers: tuple[Carrier, ...]
+    weight: float
 
     @property
     def feet(self) -> tuple[str, ...]:
@@ -335,7 +338,8 @@ def read(o: CopOptions) -> Foot:
     _require_ground(o)
     soles = [SphereSet(each.centre, each.radius, each.zone) for each in tables]
     names = [foot for foot, own in feet.items() for _ in own]
-    motions = [smoothed_motion(motion, o.motion_cutoff, o.motion) for motion in read_motions(o, bodies)]
+    motions, weight = read_motions(o, bodies)
+    motions = [smoothed_motion(motion, o.motion_cutoff, o.motion) for motion in motions]
     carriers = tuple(Carrier(*each) for each in zip(names, soles, motions, strict=True))
     sole, motion = seen_from_first(carriers), motions[0]
     up = up_of(ground)
@@ -343,7 +347,7 @@ def read(o: CopOptions) -> Foot:
     if plate is not None and o.compare is not None:
         _check(sole, motion, plate, o, up)
         plate = smoothed_plate(plate, o.force_cutoff, o.compare)
-    return Foot(o.spheres.name, sole, law, motion, ground, plate, carriers)
+    return Foot(o.spheres.name, sole, law, motion, ground, plate, carriers, weight)
 
 
 def _require_one_foot(o: CopOptions, feet: int) -> None:

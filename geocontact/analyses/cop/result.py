@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
-from geocontact.analyses.cop.feet import Carrier, spheres_by_foot
+from geocontact.analyses.cop.feet import Carrier, doubt_weight, spheres_by_foot
 from geocontact.analyses.cop.figure import cop_figure
 from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
 from geocontact.analyses.cop.loads import (
@@ -207,6 +207,7 @@ def _summarise(r: CopResult) -> None:
     found = np.isfinite(c.centre[:, 0])
     if c.pressing.any() and not found.any():
         reserve(f"no centre of pressure: the normal force stays below the gate of {r.options.gate:g} N")
+    doubt_weight(c.pressing, r.foot.weight, r.options)
     note(
         "cop",
         {
