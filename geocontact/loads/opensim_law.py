@@ -105,7 +105,7 @@ class OpenSimLaw:
             self.velocity_smoothing[sphere],
             self.constant[sphere],
         )
-        return np.maximum(np.where(self.smooth[sphere], rounded, plain), 0.0)
+        return np.asarray(np.maximum(np.where(self.smooth[sphere], rounded, plain), 0.0))
 
     def rubbing(self, sliding: Float[np.ndarray, "c 3"], sphere: Int[np.ndarray, " c"]) -> Float[np.ndarray, "c 3"]:
         """Friction over normal force, as a vector, of a velocity along the ground [m/s].

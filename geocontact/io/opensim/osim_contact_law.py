@@ -79,12 +79,12 @@ def read_contact_forces(path: str | PathLike[str], spheres: Sequence[str]) -> Co
         return None
     each = [found[name] for name in spheres]
     keys = each[0][1].keys()
-    numbers = {key: np.array([one[key] for _, one, _ in each]) for key in keys}
+    by_name = {key: np.array([one[key] for _, one, _ in each]) for key in keys}
     under = {ground for *_, ground in each}
     plane = _plane(file, model, under.pop()) if len(under) == 1 else None
     name, pose = plane or ("", RigidTransform.identity())
     return ContactForces(
-        np.array([smooth for smooth, *_ in each]), numbers, name, pose.translation, pose.rotation.apply(OUTWARDS)
+        np.array([smooth for smooth, *_ in each]), by_name, name, pose.translation, pose.rotation.apply(OUTWARDS)
     )
 
 
