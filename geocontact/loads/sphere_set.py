@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.contact.sphere_foot import friction_coefficient, normal_force
-from geocontact.data.frame_blocks import blocks, parts, release, room
+from geocontact.data.frame_blocks import blocks, parts, release, room, worked
 from geocontact.loads.ground import Ground
+from geocontact.loads.opensim_law import OpenSimLaw
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,40 @@ class SoleLaw:
         """Whether any force depends on how the foot moves, not only on where it is."""
         return bool(self.damping.any() or self.static.any() or self.kinetic.any())
 
+    def chosen(self, of: Bool[np.ndarray, " n"]) -> SoleLaw:
+        """Numbers of some of the spheres."""
+        each = {name: getattr(self, name)[of] for name in ("stiffness", "damping", "static", "kinetic")}
+        return replace(self, **each)
+
+    @property
+    def reach(self) -> float:
+        """Height of a sphere above the ground up to which a force acts [m]: it acts where the sphere touches."""
+        return 0.0
+
+    def acts_at(self, sphere: Int[np.ndarray, " c"]) -> Float[np.ndarray, " c"]:
+        """Place of the force above the sphere's lowest point, as a share of the depth [-]: on the ground."""
+        return np.ones(len(sphere))
+
+    def slides_at(self, sphere: Int[np.ndarray, " c"]) -> Float[np.ndarray, " c"]:
+        """Place of the material point that slides, likewise [-]: the sphere's lowest."""
+        return np.zeros(len(sphere))
+
+    def pressing(
+        self, depth: Float[np.ndarray, " c"], closing: Float[np.ndarray, " c"], sphere: Int[np.ndarray, " c"]
+    ) -> Float[np.ndarray, " c"]:
+        """Normal force [N] of depth [m] and its rate [m/s]."""
+        force = normal_force(
+            depth, closing, self.stiffness[sphere], self.exponent, self.damping[sphere], self.full_depth
+        )
+        return np.asarray(force)
+
+    def rubbing(self, sliding: Float[np.ndarray, "c 3"], sphere: Int[np.ndarray, " c"]) -> Float[np.ndarray, "c 3"]:
+        """Friction over normal force, as a vector, of a velocity along the ground [m/s]."""
+        speed = np.linalg.norm(sliding, axis=1)
+        coefficient = friction_coefficient(speed, self.threshold_speed, self.static[sphere], self.kinetic[sphere])
+        direction = np.divide(sliding, speed[:, None], out=np.zeros_like(sliding), where=speed[:, None] > 0.0)
+        return np.asarray(-coefficient[:, None] * direction)
+
 
 @dataclass(frozen=True)
 class SphereLoads:
@@ -126,7 +162,8 @@ class SphereLoads:
     force
         Normal force and friction [N]; it acts at `point`.
     point
-        Point of the ground nearest to the sphere's centre [m]; NaN where the sphere does not touch.
+        Point of the ground nearest to the sphere's centre [m], with `OpenSimLaw` below it within the depth; NaN where
+        no force acts.
     centre
         Centre of the sphere [m].
     normal
@@ -142,10 +179,26 @@ class SphereLoads:
     normal: Float[np.ndarray, "t n 3"]
     depth: Float[np.ndarray, "t n"]
 
+    def chosen(self, of: Bool[np.ndarray, " n"]) -> SphereLoads:
+        """Loads of some of the spheres."""
+        some = (worked(lambda part: np.ascontiguousarray(part[:, of]), getattr(self, e.name)) for e in fields(self))
+        return SphereLoads(*some)
+
+
+def beside(loads: Sequence[SphereLoads]) -> SphereLoads:
+    """Loads of spheres on several bodies in the same frames, as of one set."""
+    if len(loads) == 1:
+        return loads[0]
+
+    def joined(*some: np.ndarray) -> np.ndarray:
+        return np.concatenate(some, axis=1)
+
+    return SphereLoads(*(worked(joined, *(getattr(one, each.name) for one in loads)) for each in fields(SphereLoads)))
+
 
 def sphere_loads(
     spheres: SphereSet,
-    law: SoleLaw,
+    law: SoleLaw | OpenSimLaw,
     poses: RigidTransform,
     rate: Float[np.ndarray, "t 4 4"],
     ground: Ground,
@@ -153,7 +206,8 @@ def sphere_loads(
     """Loads along a motion.
 
     Depth is radius - distance of the centre, its rate the speed of the centre against the ground's normal. Friction
-    acts against the velocity along the ground of that material point of the foot which is the sphere's lowest.
+    acts against the velocity along the ground of that material point of the foot which is the sphere's lowest, with
+    `OpenSimLaw` of the one at which the force acts.
 
     Parameters
     ----------
@@ -181,7 +235,7 @@ OF_A_SPHERE = 14
 
 def _loads_of(
     spheres: SphereSet,
-    law: SoleLaw,
+    law: SoleLaw | OpenSimLaw,
     poses: RigidTransform,
     rate: Float[np.ndarray, "t 4 4"],
     ground: Ground,
@@ -192,29 +246,26 @@ def _loads_of(
     turn, count = matrices[:, :3, :3], len(spheres)
     centre = np.einsum("tij,nj->tni", turn, spheres.centre) + matrices[:, None, :3, 3]
     limit = float(spheres.deepest.max())
-    near = ground.proximity(centre.reshape(-1, 3), limit)
-    depth = spheres.radius - near.distance.reshape(-1, count)
-    _refuse_buried(depth, spheres, first)
-    frame, sphere = np.nonzero(depth > 0.0)
+    near = ground.proximity(centre.reshape(-1, 3), limit + law.reach)
+    distance = near.distance.reshape(-1, count)
+    depth = spheres.radius - distance
+    _refuse_buried(distance < -limit, spheres, first)
+    touching = depth > -law.reach
+    frame, sphere = np.nonzero(touching)
     normal = np.full_like(centre, np.nan)
     point = np.full_like(centre, np.nan)
     pressing, force = np.zeros(depth.shape), np.zeros_like(centre)
-    touching = depth > 0.0
-    normal[touching] = near.normal.reshape(centre.shape)[touching]
-    point[touching] = near.closest.reshape(centre.shape)[touching]
-
-    n = normal[touching]
-    lowest = spheres.centre[sphere] - spheres.radius[sphere, None] * np.einsum("cij,ci->cj", turn[frame], n)
+    n, deep = near.normal.reshape(centre.shape)[touching], depth[touching]
+    normal[touching] = n
+    below = ((1.0 - law.acts_at(sphere)) * deep)[:, None] * n
+    point[touching] = near.closest.reshape(centre.shape)[touching] - below
+    arm = spheres.radius[sphere] - law.slides_at(sphere) * deep
+    sliding_point = spheres.centre[sphere] - arm[:, None] * np.einsum("cij,ci->cj", turn[frame], n)
     closing = -np.einsum("ci,ci->c", n, _velocity(rate[frame], spheres.centre[sphere]))
-    pressing[touching] = normal_force(
-        depth[touching], closing, law.stiffness[sphere], law.exponent, law.damping[sphere], law.full_depth
-    )
-    velocity = _velocity(rate[frame], lowest)
+    pressing[touching] = law.pressing(deep, closing, sphere)
+    velocity = _velocity(rate[frame], sliding_point)
     sliding = velocity - np.einsum("ci,ci->c", velocity, n)[:, None] * n
-    speed = np.linalg.norm(sliding, axis=1)
-    coefficient = friction_coefficient(speed, law.threshold_speed, law.static[sphere], law.kinetic[sphere])
-    direction = np.divide(sliding, speed[:, None], out=np.zeros_like(sliding), where=speed[:, None] > 0.0)
-    force[touching] = pressing[touching][:, None] * (n - coefficient[:, None] * direction)
+    force[touching] = pressing[touching][:, None] * (n + law.rubbing(sliding, sphere))
     return SphereLoads(pressing, force, point, centre, normal, depth)
 
 
@@ -232,8 +283,8 @@ def _velocity(rate: Float[np.ndarray, "c 4 4"], body_point: Float[np.ndarray, "c
     return np.asarray(np.einsum("cij,cj->ci", rate[:, :3, :3], body_point) + rate[:, :3, 3])
 
 
-def _refuse_buried(depth: Float[np.ndarray, "t n"], spheres: SphereSet, first: int) -> None:
-    buried = np.argwhere(np.isposinf(depth))
+def _refuse_buried(deeper: Bool[np.ndarray, "t n"], spheres: SphereSet, first: int) -> None:
+    buried = np.argwhere(deeper)
     if len(buried):
         frame, sphere = buried[0]
         one = f"{spheres.kind} {sphere + 1}"

@@ -184,3 +184,22 @@ def test_spheres_follow_the_plate_over_a_step(data_dir: Path, tmp_path: Path) ->
     on = (rows["force_y [N]"] > 50.0).to_numpy()
     plate_on = (rows["plate_force_y [N]"] > 50.0).to_numpy()
     assert (on == plate_on).mean() > 0.9, "stance is found"
+
+
+def test_both_feet_of_a_walk_by_the_forces_of_the_model(data_dir: Path, tmp_path: Path) -> None:
+    """OpenCap's walk on the contact spheres of its model: all feet are the sum of both, and far heavier than the body.
+
+    Video has the floor some centimetres higher than the model: sizes of forces mean nothing, and a warning says so.
+    """
+    source, out = data_dir / "opencap", tmp_path / "out"
+    motion = ("--motion", source / "walking1_videoAndMocap.mot")
+    feet = ("--body", "calcn_r+toes_r,calcn_l+toes_l")
+    osim = source / "LaiArnoldModified2017_contacts.osim"
+    result = done(call("cop", osim, *feet, *motion, "--out", out, folder=out))
+    whole, each = pd.read_csv(out / "cop.csv"), pd.read_csv(out / "feet.csv")
+    for axis in "xyz":
+        both = each[f"calcn_r force_{axis} [N]"] + each[f"calcn_l force_{axis} [N]"]
+        np.testing.assert_allclose(whole[f"force_{axis} [N]"], both, rtol=0, atol=1e-6)
+    between = each["calcn_r cop_z [mm]"] - each["calcn_l cop_z [mm]"]
+    assert 50.0 < between.median() < 250.0, "right is +z of left"
+    assert any("times the weight of" in line for line in result.record()["warnings"])

@@ -11,8 +11,19 @@ import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from geocontact.analyses.cop.feet import (
+    TOGETHER,
+    Carrier,
+    bodies_by_foot,
+    floor_of,
+    joined,
+    law_of_model,
+    read_motions,
+    read_tables,
+    seen_from_first,
+)
 from geocontact.analyses.cop.options import CopOptions
-from geocontact.analyses.frame.bodies import read_body_motion, warn_of_inner_surfaces
+from geocontact.analyses.frame.bodies import warn_of_inner_surfaces
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
 from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
@@ -31,11 +42,11 @@ from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.mocap.force_plates import plate_named, read_force_plates
 from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim import bodies_at_rest, read_joint
-from geocontact.io.opensim.osim_contact import read_contact_spheres
-from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law, read_spheres
+from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law
 from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.ground import Ground, Sheet, Stairs, ground_of_surface
+from geocontact.loads.opensim_law import OpenSimLaw
 from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
 from geocontact.loads.sole_law import law_of_sole
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
@@ -281,31 +292,69 @@ def root_mean_squares(table: pd.DataFrame) -> dict[str, float | None]:
 
 @dataclass(frozen=True)
 class Foot:
-    """A sole with its law and its motion over the ground, and a force plate beside it where there is one."""
+    """A sole with its law and its motion over the ground, and a force plate beside it where there is one.
+
+    Parameters
+    ----------
+    name
+        Of the file of its spheres.
+    sole, motion
+        All spheres in the frame of the first body, and its motion: those of another body as in the first frame.
+    law
+        Of all spheres.
+    carriers
+        Each body with its own spheres and motion, in the order of the spheres; of one foot or of several.
+    weight
+        Of the model through whose chain they move [N]; 0 without one.
+    """
 
     name: str
     sole: SphereSet
-    law: SoleLaw
+    law: SoleLaw | OpenSimLaw
     motion: Motion
     ground: Ground
     plate: ForcePlate | None
+    carriers: tuple[Carrier, ...]
+    weight: float
+
+    @property
+    def feet(self) -> tuple[str, ...]:
+        """Names of the feet."""
+        return tuple(dict.fromkeys(one.foot for one in self.carriers))
 
 
 def read(o: CopOptions) -> Foot:
     """Everything the options name."""
+    feet = bodies_by_foot(o)
+    _require_one_foot(o, len(feet))
+    bodies = [body for own in feet.values() for body in own]
     ground = ground_of(o)
-    table = _spheres(o)
+    tables, forces = read_tables(o, bodies)
+    table = joined(tables)
     add_input("spheres", o.spheres, spheres=len(table.radius))
-    sole = SphereSet(table.centre, table.radius, table.zone)
-    law = sole_law(table, o)
+    law = sole_law(table, o) if forces is None else law_of_model(forces, table.radius, o.spheres)
+    if forces is not None and o.ground is None:
+        ground = floor_of(forces, o)
     _require_ground(o)
-    motion = smoothed_motion(read_body_motion(o.motion, o), o.motion_cutoff, o.motion)
+    soles = [SphereSet(each.centre, each.radius, each.zone) for each in tables]
+    names = [foot for foot, own in feet.items() for _ in own]
+    motions, weight = read_motions(o, bodies)
+    motions = [smoothed_motion(motion, o.motion_cutoff, o.motion) for motion in motions]
+    carriers = tuple(Carrier(*each) for each in zip(names, soles, motions, strict=True))
+    sole, motion = seen_from_first(carriers), motions[0]
     up = up_of(ground)
     plate = chosen_plate(o, up)
     if plate is not None and o.compare is not None:
         _check(sole, motion, plate, o, up)
         plate = smoothed_plate(plate, o.force_cutoff, o.compare)
-    return Foot(o.spheres.name, sole, law, motion, ground, plate)
+    return Foot(o.spheres.name, sole, law, motion, ground, plate, carriers, weight)
+
+
+def _require_one_foot(o: CopOptions, feet: int) -> None:
+    """InputError for what is of one foot where there are several."""
+    for name, given in (("toe", o.toe), ("stances", o.stances), ("compare", o.compare)):
+        if feet > 1 and given:
+            raise InputError("", f"`{name}`", f"is of one foot, `body` names {feet}", "compute one foot at a time")
 
 
 def _check(
@@ -319,7 +368,7 @@ def _check(
         [motion.poses.apply(sole.centre[k]).reshape(-1, 3) - sole.radius[k] * above for k in ends], axis=1
     )
     foot = MarkerTrajectories(motion.time, places, ("heel", "toe"), str(o.motion))
-    side = stem_and_side(o.body or "")[1]
+    side = stem_and_side((o.body or "").split(TOGETHER)[0].strip())[1]
     if side:
         foot = replace(foot, names=tuple(f"{side}{name}" for name in foot.names))
     on = FootPlate(plate, str(o.compare), side)
@@ -337,11 +386,3 @@ def _require_ground(o: CopOptions) -> None:
         what = f"'{o.joint}' gives {foot} in {other}, which is not the ground"
         remedy = f"give poses of {foot} in the ground (.csv), or a joint of the ground"
         raise InputError(o.osim, "`joint`", what, remedy)
-
-
-def _spheres(o: CopOptions) -> SphereTable:
-    if o.spheres.suffix.lower() == ".osim":
-        return read_contact_spheres(o.spheres, o.body)
-    if o.body is not None:
-        raise InputError(o.spheres, "`body`", "has no effect: the spheres are not those of a model", "leave it out")
-    return read_spheres(o.spheres)

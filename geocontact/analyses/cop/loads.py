@@ -36,6 +36,8 @@ class FootLoads(Result):
         The centre of each of `loads.centre_of_pressure.POINTS`, `centre.centre` among them.
     axis
         From the heel to the toe; None where nobody said which way the toe is.
+    feet
+        Resultant, centre of pressure and free moment of each foot where there are several.
     zones
         Sum of the normal forces of each zone, filtered where the forces are.
     plate, comparison
@@ -48,6 +50,7 @@ class FootLoads(Result):
     centre: CentreOfPressure
     centres: dict[str, Float[np.ndarray, "t 3"]]
     axis: FootAxis | None
+    feet: dict[str, CentreOfPressure]
     zones: dict[str, Float[np.ndarray, " t"]]
     plate: PlateCurves | None
     comparison: pd.DataFrame | None
@@ -71,6 +74,17 @@ def loads_table(r: FootLoads) -> pd.DataFrame:
             "max_depth [m]": worked(_deepest, r.loads.depth),
         }
     )
+
+
+def feet_table(r: FootLoads) -> pd.DataFrame:
+    """Normal force, force, centre and free moment of each foot, in columns that begin with its name."""
+    columns: dict[str, Float[np.ndarray, " t"]] = {"time [s]": r.foot.motion.time}
+    for name, c in r.feet.items():
+        columns[f"{name} normal [N]"] = c.pressing
+        for quantity, unit, values in (("force", "N", c.wrench.force), ("cop", "mm", c.centre * MM)):
+            columns |= {f"{name} {quantity}_{axis} [{unit}]": values[:, k] for k, axis in enumerate("xyz")}
+        columns[f"{name} free_moment [N m]"] = c.free_moment
+    return frame_of(columns)
 
 
 def _touching(depth: Float[np.ndarray, "t n"]) -> Int[np.ndarray, " t"]:

@@ -47,18 +47,20 @@ class CopOptions(Options):
         Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone; or an OpenSim model (.osim)
         with contact spheres on `body`.
     motion
-        Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+        Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`;
+        without these they go through all joints of the model that `spheres` is.
 
     The foot
     --------
     body
-        Body of the OpenSim model whose contact spheres are the foot's, each a zone.
+        Body of the OpenSim model whose contact spheres are the foot's, each a zone. Several bodies of a foot are joined
+        by +, several feet by a comma: calcn_r+toes_r,calcn_l+toes_l.
 
     The ground
     ----------
     ground
         plane:nx,ny,nz,offset (all x with n.x = offset [m], n made a unit vector), stairs:h0,x1:h1,x2:h2 (height h1 [m]
-        from x1 on, y up), or a mesh; plane:0,1,0,0 by default.
+        from x1 on, y up), or a mesh; by default that of the model's contact forces, else plane:0,1,0,0.
     unit
         Unit of the ground's mesh; never guessed.
     merge_tolerance
@@ -132,7 +134,8 @@ class CopOptions(Options):
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
-    Writes cop.csv, zones.csv, cop.png, cop.svg, report.html and run.json into OUT, and comparison.csv with `compare`.
+    Writes cop.csv, zones.csv, cop.png, cop.svg, report.html and run.json into OUT, comparison.csv with `compare`,
+    feet.csv of several feet.
     """
 
     spheres: Path

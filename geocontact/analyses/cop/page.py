@@ -35,6 +35,7 @@ TALL = 0.6  # of the ground's length, how high the largest force is drawn
 LEAST = 0.1  # m; a path may be shorter than the drawing
 ZONES = 5  # named at most
 FOOT = "Seen from above, in the foot's frame: spheres that stand for the sole, their outline, and the path."
+BODIES = f"{FOOT} Spheres on another body than the first are drawn as in the first frame of the motion."
 
 
 def axis_name(axis: int, sign: float = 1.0) -> str:
@@ -71,8 +72,20 @@ def foot_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
         [outline, *circles],
         tracks,
         marks,
-        words=FOOT,
+        words=BODIES if len(r.foot.carriers) > 1 else FOOT,
     )
+
+
+def ground_plan(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan:
+    """Path of the centre of each foot and of all feet together, seen against the ground's normal."""
+    upward = _upward(r)
+    across, up = [axis for axis in range(3) if axis != (1 if upward is None else upward)]
+    centres = {"all feet": r.centre.centre, **{name: c.centre for name, c in r.feet.items()}}
+    tracks = [Track(name, centre[shown][:, [across, up]] * MM) for name, centre in centres.items()]
+    return Plan("Paths on the ground", "mm", axis_name(across), axis_name(up), [], tracks, words=FEET)
+
+
+FEET = "Seen from above, in the frame of the ground: centre of pressure of each foot, and of all feet together."
 
 
 def butterfly(r: FootLoads, shown: Int[np.ndarray, " k"]) -> Plan | None:
@@ -166,7 +179,8 @@ def headline(r: FootLoads) -> list[str]:
     if not c.pressing.any():
         return ["No sphere touches the ground: there is no force and no centre of pressure."]
     k = int(np.argmax(c.pressing))
-    said = f"The ground presses on the foot with up to {rounded(c.pressing[k], 3)} N, at {_at(time[k])}"
+    what = "all feet together" if r.feet else "the foot"
+    said = f"The ground presses on {what} with up to {rounded(c.pressing[k], 3)} N, at {_at(time[k])}"
     if not found.any():
         return [f"{said}: too little for a centre of pressure, which needs {r.options.gate:g} N."]
     way, along = travel(r)
@@ -246,7 +260,7 @@ def cop_page(r: FootLoads) -> Page:
     shown = thinned(len(time), [c.pressing, *c.wrench.force.T], [int(np.argmax(c.pressing))])
     forces = butterfly(r, shown)
     sections: list[Section] = [
-        foot_plan(r, shown),
+        ground_plan(r, shown) if r.feet else foot_plan(r, shown),
         Readout(_rows(r, shown)),
         *([] if forces is None else [forces]),
         *load_curves(r).at(shown),
@@ -322,6 +336,9 @@ def load_curves(r: FootLoads) -> CurveSheet:
 def _further_curves(r: FootLoads) -> CurveSheet:
     """Force of each zone, difference to the plate, and the centres along the foot."""
     force, panels = r.centre.wrench.force, []
+    if r.feet:
+        curves = [Curve(name, c.pressing) for name, c in r.feet.items()]
+        panels.append(Curves("Normal force of each foot", "N", curves))
     if len(r.zones) > 1:
         panels.append(Curves("Normal force of each zone", "N", [Curve(name, own) for name, own in r.zones.items()]))
     if r.plate is not None:

@@ -24,6 +24,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool, Float
 
+from geocontact.analyses.cop.feet import Carrier, doubt_weight, spheres_by_foot
 from geocontact.analyses.cop.figure import cop_figure
 from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
 from geocontact.analyses.cop.loads import (
@@ -31,6 +32,7 @@ from geocontact.analyses.cop.loads import (
     SHARE,
     FootLoads,
     along_foot,
+    feet_table,
     loads_table,
     mean_normal,
     stance_table,
@@ -46,8 +48,9 @@ from geocontact.data.frame_blocks import parts, worked
 from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import POINTS, FootAxis, Smooth, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
+from geocontact.loads.opensim_law import OpenSimLaw
 from geocontact.loads.resultant import pose_rate
-from geocontact.loads.sphere_set import SphereLoads, clearance, sphere_loads
+from geocontact.loads.sphere_set import SoleLaw, SphereLoads, beside, clearance, sphere_loads
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,8 +84,10 @@ class CopResult(FootLoads):
         return self.centre.free_moment
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`cop`, `zones`; `comparison` with a plate, `along_foot` with `toe`, `stances` where asked for."""
+        """`cop`, `zones`; `feet` of several; `comparison` with a plate, `along_foot` with `toe`, `stances` if asked."""
         found = {"cop": loads_table(self), "zones": self._zones_table()}
+        if self.feet:
+            found["feet"] = feet_table(self)
         if self.comparison is not None:
             found["comparison"] = self.comparison
         within = along_foot(self)
@@ -129,6 +134,11 @@ def run(foot: Foot, o: CopOptions) -> CopResult:
 
     found = {point: centre_of(loads, point, o.gate, smooth if o.force_cutoff else None) for point in POINTS}
     centre = found[o.point]
+    several = spheres_by_foot(foot.carriers) if len(foot.feet) > 1 else {}
+    feet = {
+        name: centre_of(loads.chosen(own), o.point, o.gate, smooth if o.force_cutoff else None)
+        for name, own in several.items()
+    }
     curves = None if foot.plate is None else plate_curves(foot.plate, time, centre, o)
     comparison = None if curves is None else comparison_table(time, centre, curves)
     result = CopResult(
@@ -138,6 +148,7 @@ def run(foot: Foot, o: CopOptions) -> CopResult:
         centre=centre,
         centres={point: each.centre for point, each in found.items()},
         axis=None if o.toe is None else _axis(foot, o.toe, o.foot_length),
+        feet=feet,
         zones={zone: _zone_force(loads, own, smooth) for zone, own in foot.sole.zones.items()},
         plate=curves,
         comparison=comparison,
@@ -160,14 +171,23 @@ def _axis(foot: Foot, toe: str, length: float | None) -> FootAxis:
 def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
     if len(foot.motion) == 1 and foot.law.needs_velocity:
         reserve(f"{o.motion} has one frame: the foot is assumed to stand still")
-    rate = pose_rate(foot.motion.time, foot.motion.poses)
     try:
         with listener().preparing():
-            loads = sphere_loads(foot.sole, foot.law, foot.motion.poses, rate, foot.ground)
+            loads = beside([_of_body(foot, k) for k in range(len(foot.carriers))])
     except ValueError as error:
         raise InputError(o.motion, "", str(error), REMEDY) from error
     _reserve_oddities(foot, loads, o)
     return loads
+
+
+def _of_body(foot: Foot, k: int) -> SphereLoads:
+    """Loads on the spheres of one body."""
+    body: Carrier = foot.carriers[k]
+    law = foot.law
+    if len(foot.carriers) > 1:
+        law = law.chosen(np.repeat(np.arange(len(foot.carriers)) == k, [len(one.sole) for one in foot.carriers]))
+    rate = pose_rate(body.motion.time, body.motion.poses)
+    return sphere_loads(body.sole, law, body.motion.poses, rate, foot.ground)
 
 
 def _reserve_oddities(foot: Foot, loads: SphereLoads, o: CopOptions) -> None:
@@ -187,6 +207,7 @@ def _summarise(r: CopResult) -> None:
     found = np.isfinite(c.centre[:, 0])
     if c.pressing.any() and not found.any():
         reserve(f"no centre of pressure: the normal force stays below the gate of {r.options.gate:g} N")
+    doubt_weight(c.pressing, r.foot.weight, r.options)
     note(
         "cop",
         {
@@ -194,21 +215,39 @@ def _summarise(r: CopResult) -> None:
             "frames_with_cop": int(found.sum()),
             "peak_normal_N": round(float(c.pressing.max()), 6),
             "point": r.options.point,
-            "law": {
-                "k": sorted(set(law.stiffness.tolist())),
-                "b": sorted(set(law.damping.tolist())),
-                "n": law.exponent,
-                "delta_full_m": law.full_depth,
-                "mu_s": _one_or_all(law.static),
-                "mu_k": _one_or_all(law.kinetic),
-                "v_th_m_per_s": law.threshold_speed,
-            },
+            "law": _law_of_model(law) if isinstance(law, OpenSimLaw) else _law_of_sole(law),
         },
     )
     say(f"normal force up to {c.pressing.max():.1f} N; a centre of pressure in {found.sum()} of {len(found)} frames")
+    for name, c in r.feet.items():
+        say(f"{name}: normal force up to {c.pressing.max():.1f} N")
     _report_foot(r)
     if r.comparison is not None:
         _report_comparison(r, root_mean_squares(r.comparison))
+
+
+def _law_of_sole(law: SoleLaw) -> dict[str, object]:
+    return {
+        "k": sorted(set(law.stiffness.tolist())),
+        "b": sorted(set(law.damping.tolist())),
+        "n": law.exponent,
+        "delta_full_m": law.full_depth,
+        "mu_s": _one_or_all(law.static),
+        "mu_k": _one_or_all(law.kinetic),
+        "v_th_m_per_s": law.threshold_speed,
+    }
+
+
+def _law_of_model(law: OpenSimLaw) -> dict[str, object]:
+    return {
+        "smooth": bool(law.smooth.all()) if law.smooth.all() == law.smooth.any() else law.smooth.tolist(),
+        "modulus_Pa": _one_or_all(law.modulus),
+        "dissipation_s_per_m": _one_or_all(law.dissipation),
+        "transition_m_per_s": _one_or_all(law.transition),
+        "static": _one_or_all(law.static),
+        "dynamic": _one_or_all(law.dynamic),
+        "viscous_s_per_m": _one_or_all(law.viscous),
+    }
 
 
 def _report_foot(r: CopResult) -> None:

@@ -86,11 +86,12 @@ EXPONENT = 1.5
 HUNT_CROSSLEY, SMOOTH = "HuntCrossleyForce", "SmoothSphereHalfSpaceForce"
 
 
-def read_contact_spheres(path: str | PathLike[str], body: str | None) -> SphereTable:
+def read_contact_spheres(path: str | PathLike[str], body: str | None, own_law: bool = False) -> SphereTable:
     """Spheres that are fixed to the body, in its frame [m], each a zone of its name.
 
     Without a stiffness where no force of the model has all of them. Dissipation and friction of the forces are of
-    another law than that of a foot on spheres: a warning says that they are left.
+    another law than that of a foot on spheres: a warning says that they are left. With `own_law` there is neither
+    stiffness nor warning: `osim_contact_law` has the forces.
     InputError where the body is not named or has no contact sphere.
     """
     file = fspath(path)
@@ -106,10 +107,10 @@ def read_contact_spheres(path: str | PathLike[str], body: str | None) -> SphereT
     own = [(e, place) for e, name, place in found if name == body]
     radius = np.array([_above_zero(file, e, "radius") for e, _ in own])
     names = tuple(e.get("name", "") for e, _ in own)
-    moduli = _moduli(file, model)
+    moduli = {} if own_law else _moduli(file, model)
     known = [moduli.get(name) for name in names]
     stiffness = None
-    if all(each is not None for each in known):
+    if not own_law and all(each is not None for each in known):
         stiffness = 4.0 / 3.0 * np.array(known, float) * np.sqrt(radius)
         what = "dissipation and friction of its contact forces are of another law and not taken: `damping`, `friction`"
         warnings.warn(InputWarning(f"{file}: {what}"), stacklevel=3)
@@ -117,12 +118,20 @@ def read_contact_spheres(path: str | PathLike[str], body: str | None) -> SphereT
     return SphereTable(np.array([place for _, place in own]), radius, names, stiffness, None, exponent)
 
 
-def _place(file: str, frames: Frames, sphere: Element) -> tuple[str, Float[np.ndarray, " 3"]]:
-    """Body that a sphere is fixed to (OpenSim 3: its name; OpenSim 4: a frame), and its centre there [m]."""
-    named = socket_of(sphere, "frame") or text_of(sphere, "body_name")
+def fixed_to(file: str, frames: Frames, geometry: Element) -> tuple[str, RigidTransform]:
+    """Body that a contact geometry is fixed to (OpenSim 3: its name; OpenSim 4: a frame), and that frame's pose in it.
+
+    The geometry's own location and orientation are in that frame.
+    """
+    named = socket_of(geometry, "frame") or text_of(geometry, "body_name")
     if not named:
-        raise InputError(file, label(sphere), "names no frame", "correct the model")
-    body, pose = frames.in_body(frames.resolve("/contactgeometryset", named))
+        raise InputError(file, label(geometry), "names no frame", "correct the model")
+    return frames.in_body(frames.resolve("/contactgeometryset", named))
+
+
+def _place(file: str, frames: Frames, sphere: Element) -> tuple[str, Float[np.ndarray, " 3"]]:
+    """Body that a sphere is fixed to, and its centre there [m]."""
+    body, pose = fixed_to(file, frames, sphere)
     return body, pose.apply(numbers_of(file, sphere, "location", 3, (0.0, 0.0, 0.0)))
 
 
