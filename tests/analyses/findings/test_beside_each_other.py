@@ -72,13 +72,34 @@ def overhead(push: float) -> Attempt:
     return attempt
 
 
-def gathered(start: float = 150.0, radius: float = 1.0) -> Attempt:
-    """Gap gather of two shipped walks, with a start of the spheres' damping, and their radii times a factor."""
+HEEL = """[parameters.k_heel]
+start = 3e4
+lower = 0.0
+upper = 1e6
+unit = "N/m^n"
+[parameters.b_heel]
+start = 0.6
+lower = 0.0
+upper = 1e6
+unit = "N s/m"
+"""
+
+
+def gathered(start: float = 150.0, radius: float = 1.0, heel: bool = False) -> Attempt:
+    """Gap gather of two shipped walks, with a start of the spheres' damping, and their radii times a factor.
+
+    With a `heel` the spheres there have a damping of their own, of 0.6 N s/m.
+    """
 
     def attempt(folder: Path) -> Lines:
         there = trials.gather_files(folder)
         text = (there / "gather.toml").read_text()
-        (there / "gather.toml").write_text(text.replace("start = 150.0", f"start = {start}"))
+        text = text.replace("start = 150.0", f"start = {start}")
+        if heel:
+            text = text.replace("[from.t01]", f"{HEEL}[from.t01]")
+            file = there / "spheres.csv"
+            file.write_text(file.read_text().replace("all", "heel", 1))
+        (there / "gather.toml").write_text(text)
         table(there / "spheres.csv", lambda t: t.__setitem__("radius [m]", radius * t["radius [m]"]))
         return as_lines(trials.gather(there))
 
@@ -141,6 +162,9 @@ FINDINGS: dict[str, Finding] = {
         settled(thickness=gc.mm(0.8)), "warned: .*largest pressure: .*check `modulus`, `poisson`, `thickness`"
     ),
     "gather: damping in N s/mm": Finding(gathered(start=0.15), "warned: .*b_all: .*is unusual for a damping"),
+    "gather: the larger damping in N s/mm": Finding(
+        gathered(start=0.9, heel=True), "warned: .*b_all: .*is unusual for a damping"
+    ),
     "area: a pose that is held": Finding(frozen(12), "warned: .*one pose in 12 frames.*was the body lost"),
     "elbow: one trial in kgf": Finding(
         elbows(times_column("force [N]", 1.0 / 9.81)),
@@ -172,6 +196,7 @@ RIGHT: dict[str, Attempt] = {
     "id: a threshold of 20 N": planted(20.0),
     "gather": gathered(),
     "gather: a damping of 20 N s/m": gathered(start=20.0),
+    "gather: a heel that is hardly damped": gathered(heel=True),
 }
 
 
