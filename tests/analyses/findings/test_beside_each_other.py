@@ -14,6 +14,9 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.gap.case import doubt_numbers
 from geocontact.analyses.prosthesis.ranges import EDGE
+from geocontact.data.gap_case import GapCase
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
 from geocontact.io.cases.gap_case import read_gap_case
 from tests.analyses.findings.heard import Finding, Lines, as_lines, as_parameters, heard, heard_reading
 from tests.analyses.findings.test_left_out_commands import as_it_is, table, times_column
@@ -106,6 +109,25 @@ def gathered(start: float = 150.0, radius: float = 1.0, heel: bool = False) -> A
     return attempt
 
 
+def in_use(trial: str, noise: float = 0.02) -> Attempt:
+    """Currents of which one steps up to 1.5 A, and the others are off, in movements that are alike."""
+
+    def attempt(folder: Path) -> Lines:
+        rng, time, made = np.random.default_rng(0), np.arange(500) / 100.0, []
+        for k in range(5):
+            angle, current = 0.3 * np.sin(3.0 * time + k), noise * rng.standard_normal(500)
+            current += 1.5 * (time > 2.0) * (f"t{k}" == trial)
+            signals = Signals(time, np.column_stack([angle, current, 31.0 * angle]), NAMES, ("rad", "A", "N m"))
+            made.append(Trial(f"t{k}", signals))
+        case = GapCase("case", "geocontact.systems.elastic_joint:JOINT", tuple(made[:3]), tuple(made[3:]), ())
+        return heard_reading(lambda _: doubt_numbers(case, folder / "case.toml"), lambda: None)
+
+    return attempt
+
+
+NAMES = ("angle", "current", "torque")
+
+
 def frozen(frames: int, jumps: bool = True) -> Attempt:
     """Area of a ball on a plate that moves steadily, but for some frames; it then goes on as it was, or from there."""
 
@@ -188,6 +210,8 @@ RIGHT: dict[str, Attempt] = {
     "shoulder compare: 20 degrees more here and there": arm(10.0, 15.0),
     "gap": elbow(),
     "gap: one trial ten times as large": elbow(factor=10.0),
+    "gap: a motor that is on in one trial": in_use("t4"),
+    "gap: a motor that is on in one trial, quietly": in_use("t0", noise=0.0126),
     "optimise: a push of 200 N": overhead(200.0),
     "knee": settled(),
     "area: 3 equal poses": frozen(3),

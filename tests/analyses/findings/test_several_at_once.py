@@ -16,6 +16,7 @@ import geocontact as gc
 from geocontact.analyses.frame.collector import collecting
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
+from geocontact.analyses.sit_to_stand.trial_recordings import strap_force
 from geocontact.standing_up.chain import Subject, leg_chain
 from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
 from tests.analyses.findings.test_left_out_commands import as_it_is, risen, table, untouched
@@ -183,6 +184,27 @@ def test_a_wrong_input_is_heard_of(finding: Finding, tmp_path: Path) -> None:
 def test_what_nearly_is_wrong_is_not_doubted(attempt: Attempt, tmp_path: Path) -> None:
     words = "|".join(finding.words.partition(".*")[2] or finding.words for finding in FINDINGS.values())
     assert not [line for line in attempt(tmp_path) if line.startswith("refused") or re.search(words, line)]
+
+
+TIMES = np.arange(0.0, 3.0, 0.02)
+SWELLING = 8.0 * np.clip(np.cos(2.0 * np.pi * TIMES / 3.0), 0.0, None)
+
+
+@pytest.mark.parametrize(
+    ("force", "doubted"),
+    [
+        (np.where(SWELLING < 2.0, 0.0, SWELLING), False),  # a mat's threshold of 2 N, reached while the strap slackens
+        (np.where(TIMES < 1.5, np.where(SWELLING < 2.0, 0.0, SWELLING), 0.0), False),  # and stays slack
+        (np.where(TIMES < 2.0, 8.0, 0.0), True),  # off until the end
+        (np.where(np.abs(TIMES - 1.5) < 0.2, 0.0, 8.0), True),
+        (np.where(np.abs(TIMES - 0.4) < 0.1, 0.0, SWELLING), True),
+    ],
+)
+def test_a_jump_is_one_beside_the_slope_before_it(force: np.ndarray, doubted: bool, tmp_path: Path) -> None:
+    pd.DataFrame({"time [s]": TIMES, "normal [N]": force}).to_csv(tmp_path / "strap.csv", index=False)
+    with collecting(Record("test", {})) as record:
+        strap_force(tmp_path / "strap.csv", "strap", "thigh", TIMES)
+    assert any("was its cell off" in line for line in record.warnings) is doubted
 
 
 @pytest.mark.parametrize(("lowered", "doubted"), [(0.05, False), (0.15, False), (0.3, True)])
