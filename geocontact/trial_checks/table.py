@@ -25,6 +25,8 @@ CHECKS: tuple[Check, ...] = (
     *CHANNEL_CHECKS,
 )
 """Every check of a recorded trial."""
+WORK_CHECKS = tuple(check for check in CHECKS if check.name != "level")
+"""Those of who works with the hands, which push along the floor as well."""
 MOVED_CHECKS = tuple(check for check in CHECKS if check.name in ("jump", "standing trial", "right and left"))
 """Those of a further recording of the person, beside the standing trial."""
 

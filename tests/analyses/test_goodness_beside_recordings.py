@@ -118,10 +118,11 @@ def _population(mean: float) -> Run:
 
 
 def _arm(folder: Path, sign: float) -> pd.DataFrame:
-    """A logger's table of the shipped trial: what a simulation of it gives, the force turned round or not."""
+    """A logger's table of the shipped trial: what a simulation gives within 0.1 degrees, the force turned or not."""
     table = gc.shoulder.simulate(MESHES / "overhead_P1T1S100" / "markers.trc", level=1.0, side="right").table("right")
     table.to_csv(folder / "right.csv", index=False)
     file = table[["time [s]", "elevation [deg]"]].assign(**{"force [N]": sign * table["supporting [N]"] + 0.5})
+    file["elevation [deg]"] += 0.1 * np.random.default_rng(3).standard_normal(len(file))
     file.to_csv(folder / "recorded.csv", index=False)
     return table
 

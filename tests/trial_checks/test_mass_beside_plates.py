@@ -24,12 +24,17 @@ from tests.trial_checks.test_checks import GRAVITY, STANDING_STILL, marked
 SECONDS = 2.0
 
 
-def plate(kilograms: float, samples: int, sway: float = 0.0, at: float = 0.0) -> tuple[np.ndarray, ...]:
-    """Force on the foot of who stands, where it acts, and torque there; `sway` is the share that comes and goes."""
+def plate(
+    kilograms: float, samples: int, sway: float = 0.0, at: float = 0.0, push: float = 0.0
+) -> tuple[np.ndarray, ...]:
+    """Force on the foot of who stands, where it acts, and torque there; `sway` is the share that comes and goes.
+
+    `push` [N] is along the floor, as of who pushes at a wall.
+    """
     time = np.arange(samples) / samples
     normal = kilograms * GRAVITY * (1.0 + sway * np.sin(2.0 * np.pi * 3.0 * time))
     still = np.zeros(samples)
-    force = np.column_stack([still, normal, still])
+    force = np.column_stack([still + push, normal, still])
     point = np.column_stack([at + 0.1 * np.sin(2.0 * np.pi * time), still, 0.1 * np.cos(2.0 * np.pi * time)])
     return force, point, np.zeros((samples, 3))
 
@@ -54,10 +59,10 @@ def scaled(folder: Path, mass: float, **of_plate: float) -> Lines:
     return heard_reading(read_scale, ScaleOptions, file, **asked)
 
 
-def reached(folder: Path, mass: float) -> Lines:
+def reached(folder: Path, mass: float, push: float = 0.0) -> Lines:
     """Shoulder simulate, up to its reading, of somebody of 82 kg who works on a plate."""
     seen = read_trc(trials.OVERHEAD / "markers.trc")
-    file = recorded(folder, seen, plate(82.0, PER_FRAME * len(seen)))
+    file = recorded(folder, seen, plate(82.0, PER_FRAME * len(seen), push=push))
     asked = {"side": "right", "mass": mass, "sex": "male", "axes": LABORATORY}
     return heard_reading(read_shoulder, ShoulderSimulateOptions, file, **asked)
 
@@ -81,6 +86,12 @@ def test_shoulder_hears_of_pounds(tmp_path: Path) -> None:
 
 def test_shoulder_does_not_doubt_the_mass(tmp_path: Path) -> None:
     assert not any(WORDS in line for line in reached(tmp_path, 80.0))
+
+
+@pytest.mark.parametrize("push", [100.0, -200.0])
+def test_shoulder_does_not_doubt_a_push(push: float, tmp_path: Path) -> None:
+    """Hands that push leave a force along the floor to the feet; of 12 % and 25 % of the weight."""
+    assert not any("cross-talk" in line for line in reached(tmp_path, 82.0, push))
 
 
 @pytest.mark.parametrize(("at", "found"), [(0.0, 1), (1.0, 0)])

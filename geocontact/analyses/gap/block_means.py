@@ -120,10 +120,34 @@ class Evenness:
         return np.asarray(np.abs(np.divide(self.bent, usual, out=np.zeros_like(usual), where=usual > 0.0)))
 
 
+@dataclass(frozen=True)
+class QuickNoise:
+    """Variances that a channel's blocks show: within one, and of their means as far as halves of one block show it.
+
+    They are of so many `samples`.
+    """
+
+    within: float
+    of_means: float
+    samples: int
+
+    def remaining(self, stated: float) -> float:
+        """Standard deviation of means, of noise with a stated one of samples.
+
+        The variance within blocks is counted at the upper end of its 95 % interval, as of white noise.
+        """
+        if self.within <= 0.0:
+            return stated
+        share = self.of_means / (self.of_means + self.within)
+        within = self.within * (1.0 + 2.0 * np.sqrt(2.0 / self.samples))
+        return float(np.sqrt(max(share * stated**2, stated**2 - within)))
+
+
 def averaged(case: GapCase, outputs: Sequence[str], inputs: Sequence[str]) -> tuple[GapCase, int]:
     """The case with the means of blocks in place of its samples, and how many are in one: 1 where all stay.
 
-    The stated noise becomes that of means, by what is seen to remain of it.
+    Of the variance of the stated noise only what is seen within blocks is taken off, so that slow noise, which means
+    keep and blocks do not show, stays; at least what the blocks' halves show of means remains.
     """
     step = typical_step(case)
     trials = (*case.calibration, *case.evaluation)
@@ -131,10 +155,10 @@ def averaged(case: GapCase, outputs: Sequence[str], inputs: Sequence[str]) -> tu
         return case, 1
     size = 2 * int(0.5 * LONGEST / step + 1e-6)
     while size >= 2:
-        shares = even(trials, outputs, inputs, step, size)
-        if shares is not None:
+        quick = even(trials, outputs, inputs, step, size)
+        if quick is not None:
             first, later = (tuple(_means(one, step, size) for one in s) for s in (case.calibration, case.evaluation))
-            noise = {name: sd * shares.get(name, 1.0) for name, sd in case.noise.items()}
+            noise = {name: quick[name].remaining(sd) if name in quick else sd for name, sd in case.noise.items()}
             return replace(case, calibration=first, evaluation=later, noise=noise), size
         size = 2 * int(0.375 * size)
     return case, 1
@@ -142,11 +166,11 @@ def averaged(case: GapCase, outputs: Sequence[str], inputs: Sequence[str]) -> tu
 
 def even(
     trials: Sequence[Trial], outputs: Sequence[str], inputs: Sequence[str], step: float, size: int
-) -> dict[str, float] | None:
-    """By channel, how much of the standard deviation of its noise means of blocks have; None where more is lost."""
+) -> dict[str, QuickNoise] | None:
+    """By channel, what means of blocks take off its noise; None where they lose more than noise."""
     if _gaps_cost(trials, (*outputs, *inputs), step, size):
         return None
-    found: dict[str, float] = {}
+    found: dict[str, QuickNoise] = {}
     for name in (*inputs, *outputs):
         own = [Evenness.of(trial.time, trial.column(name), step, size) for trial in trials]
         bent, noise, sizes = (np.concatenate([getattr(e, key) for e in own]) for key in ("bent", "noise", "of_means"))
@@ -162,9 +186,8 @@ def even(
             typical = max(typical_noise(sizes), 1.0)
             if typical**2 > MEMORY or sizes.max() > limit * typical or _line(trials, name, size):
                 return None
-        of_means = typical_noise(bent) ** 2 / HALVES
         within = float(np.mean([e.within for e in own]))
-        found[name] = float(np.sqrt(of_means / (of_means + within))) if within > 0.0 else 1.0
+        found[name] = QuickNoise(within, float(typical_noise(bent) ** 2 / HALVES), len(bent) * size)
     return found
 
 

@@ -92,10 +92,9 @@ LENGTHS = {"elbow": ("l", "z", "l_ex", "z_ex")}
 """Constants of a base model that are lengths in m, by its name."""
 STARTS = {("elbow", "k"): ATTACHMENT}
 """Sizes of a base model's parameters, by its name and theirs, where they are known."""
-OTHER_UNIT, ALIKE = 25.0, 5.0
-"""How many times larger or smaller a channel is in one trial than in the others for another unit, the smallest of which
-that people mix up is 57, degrees for radians, of trials that differ by 2; and by how much its other channels may
-differ then."""
+UNITS, SPREAD, ALIKE = (25.4, 57.3, 100.0, 1000.0, 1e6), 1.25, 5.0
+"""How many times larger or smaller a channel is in one trial for another unit (inches, degrees, cm, mm or kN, MN), by
+how much trials differ beside that, and by how much its other channels and its noise may differ then."""
 SMALL = 0.05
 """Share of what a channel changes from sample to sample, below which a stated noise is another unit's."""
 
@@ -129,24 +128,41 @@ def doubt_numbers(case: GapCase, file: Path) -> None:
 
 
 def _doubt_units(case: GapCase, file: Path) -> None:
-    """A warning for a trial of which one channel has another size than in the others, and no other channel."""
+    """A warning for a trial of which one channel has another size than in the others, and no other channel.
+
+    Another unit makes noise as many times larger as movement; a channel that is in use in one trial only does not.
+    """
     sizes: dict[str, dict[str, float]] = {}
+    rough: dict[str, dict[str, float]] = {}
     for trial in (*case.calibration, *case.evaluation):
         for channel in trial.signals.channels:
             known = trial.column(channel)[np.isfinite(trial.column(channel))]
             if len(known) > FEWEST and np.std(known) > 0.0:
                 sizes.setdefault(channel, {})[trial.name] = float(np.std(known))
-    times = {
-        (trial, channel): size / float(np.median([each for name, each in of.items() if name != trial]))
+                rough.setdefault(channel, {})[trial.name] = float(np.median(np.abs(np.diff(known, 2))))
+    times, rougher = _beside_others(sizes), _beside_others(rough)
+    for (own, channel), ratio in times.items():
+        others = [each for (name, other), each in times.items() if name == own and other != channel]
+        larger, noisier = max(ratio, 1.0 / ratio), rougher[own, channel] / ratio
+        unit = any(1.0 / SPREAD < larger / factor < SPREAD for factor in UNITS)
+        unit &= not noisier > 0.0 or 1.0 / ALIKE < noisier < ALIKE
+        if unit and others and all(1.0 / ALIKE < each < ALIKE for each in others):
+            what = f"trial {own}: {channel} changes by {ratio:.3g} times what it does in the other trials"
+            reserve(f"{file}: {what}, and nothing else of it differs so: is it in another unit?")
+
+
+def _beside_others(sizes: Mapping[str, Mapping[str, float]]) -> dict[tuple[str, str], float]:
+    """By trial and channel, a size in parts of the median of the other trials', of channels that enough trials have.
+
+    0 where that of the others is none.
+    """
+    return {
+        (trial, channel): size / usual if usual > 0.0 else 0.0
         for channel, of in sizes.items()
         if len(of) > FEW
         for trial, size in of.items()
+        for usual in [float(np.median([each for name, each in of.items() if name != trial]))]
     }
-    for (own, channel), ratio in times.items():
-        others = [each for (name, other), each in times.items() if name == own and other != channel]
-        if max(ratio, 1.0 / ratio) > OTHER_UNIT and others and all(1.0 / ALIKE < each < ALIKE for each in others):
-            what = f"trial {own}: {channel} changes by {ratio:.3g} times what it does in the other trials"
-            reserve(f"{file}: {what}, and nothing else of it differs so: is it in another unit?")
 
 
 FEWEST = 10

@@ -41,6 +41,9 @@ CELL = "r0c0"
 """First cell in a mat's own recording."""
 OFF, DROPPED = 5, 0.2
 """Samples at exactly 0 N, and parts of the largest force right before or after them: what slackens does not jump."""
+EDGE, SLOPE, SLACKENS = 0.05, 0.1, 0.2
+"""s, beside a jump, which sampling may draw out; over which the slope before it is taken, and in which a strap that
+slackens at it would come to 0 N; invented."""
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
 Used = Bool[np.ndarray, " t"]
@@ -137,18 +140,31 @@ def strap_force(file: Path, role: str, site: str, time: Times) -> Times:
 
 
 def _doubt_dropped(file: Path, time: Times, force: Times) -> None:
-    """A warning for a force that drops to exactly 0 N in between, from one sample to the next, and comes back."""
+    """A warning for a force that jumps to exactly 0 N, and comes back or stays there until the end."""
     edges = np.flatnonzero(np.diff(np.r_[False, force == 0.0, False].astype(int)))
-    most = float(np.nanmax(np.abs(force), initial=0.0))
+    size = np.abs(force)
+    most = float(np.nanmax(size, initial=0.0))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        if start < 2 or stop > len(force) - 2 or stop - start < OFF:
+        ends = stop == len(force)
+        if start < 2 or (not ends and stop > len(force) - 2) or stop - start < OFF:
             continue
-        before, after = np.abs(force[start - 2 : start]).max(), np.abs(force[stop : stop + 2]).max()
+        before = _jump(time[:start], size[:start])
+        after = 0.0 if ends else _jump(-time[stop:][::-1], size[stop:][::-1])
         if max(before, after) > DROPPED * most:
-            when = f"from {time[start]:.2f} to {time[stop - 1]:.2f} s"
-            what = f"is exactly 0 N {when}, {before:.0f} N right before and {after:.0f} N right after"
+            when = f"from {time[start]:.2f} {'s on' if ends else f'to {time[stop - 1]:.2f} s'}"
+            back = "" if ends else f" and {size[stop : stop + 2].max():.0f} N right after"
+            what = f"is exactly 0 N {when}, {size[start - 2 : start].max():.0f} N right before{back}"
             reserve(f"{file}: the strap's force {what}: was its cell off? a strap that slackens does not jump")
             return
+
+
+def _jump(time: Times, size: Times) -> float:
+    """Force [N] that a recording ends with; 0 where it comes down so steadily that it soon is 0.
+
+    A mat shows nothing below its threshold: a strap that slackens reads 0 N from there on.
+    """
+    near, far = np.interp(time[-1] - np.array([EDGE, EDGE + SLOPE]), time, size)
+    return 0.0 if near <= (far - near) / SLOPE * (EDGE + SLACKENS) else float(size[-2:].max())
 
 
 def site_shear(files: Sequence[Path], time: Times) -> Times | None:

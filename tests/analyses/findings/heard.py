@@ -34,6 +34,9 @@ class Finding(NamedTuple):
         Whether it takes more than a minute.
     silent
         Why nothing is heard yet; empty where it is.
+    alarm
+        What no line on a right input holds: the words without numbers and names of the wrong input. Where they are not
+        given, what stands last in `words`.
     """
 
     attempt: Callable[[Path], Lines]
@@ -41,6 +44,13 @@ class Finding(NamedTuple):
     slow: bool = False
     long: bool = False
     silent: str = ""
+    alarm: str = ""
+
+    @property
+    def forbidden(self) -> str:
+        """Pattern of the same alarm, whatever its numbers."""
+        last = self.words.rpartition(".*")[2].removeprefix("warned: ")
+        return self.alarm or last
 
 
 def as_parameters(findings: dict[str, Finding]) -> list[Any]:

@@ -16,6 +16,7 @@ import geocontact as gc
 from geocontact.analyses.frame.collector import collecting
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.recorded_beside import doubt_bending
+from geocontact.analyses.sit_to_stand.trial_recordings import strap_force
 from geocontact.standing_up.chain import Subject, leg_chain
 from tests.analyses.findings.heard import Finding, Lines, as_parameters, heard
 from tests.analyses.findings.test_left_out_commands import as_it_is, risen, table, untouched
@@ -138,23 +139,30 @@ FINDINGS: dict[str, Finding] = {
     "pairs: one motion for both bodies": Finding(
         pairs("gait_patella.csv", "gait.csv"), "warned: .*patella and femur keep their place .*the motion of one that"
     ),
-    "cohort: a trial's file copied": Finding(study(41.0), "warned: B: ball_B.csv has the bytes of ball_A.csv, of A"),
+    "cohort: a trial's file copied": Finding(
+        study(41.0), "warned: B: ball_B.csv has the bytes of ball_A.csv, of A", alarm="has the bytes of"
+    ),
     "compare: a strap drops to 0": Finding(risen(dropping(16)), "warned: .*exactly 0 N .*was its cell off"),
     "design: a strap drops to 0": Finding(risen(dropping(16), True), "warned: .*exactly 0 N .*was its cell off"),
     "compare: cross-talk of 15 %": Finding(risen(talking(0.15)), "warned: .*force along x is .*cross-talk"),
     "design: cross-talk of 15 %": Finding(risen(talking(0.15), True), "warned: .*force along x is .*cross-talk"),
     "compare: a chair 0.5 m ahead": Finding(risen(chair(0.5)), "warned: .*before the rise; are the places of chair"),
     "modulus: tested with its own areas": Finding(modulus(), "warned: .*`predict_area` has the areas of `area`"),
-    "modulus: areas that fall": Finding(measured(2000.0, 1650.0), "warned: .*its area falls from 2000 to 1650"),
+    "modulus: areas that fall": Finding(
+        measured(2000.0, 1650.0), "warned: .*its area falls from 2000 to 1650", alarm="its area falls from"
+    ),
     "modulus: a strip in cm": Finding(
-        modulus(a_percent_more, reading="strip", length=gc.mm(6)), "warned: .*wide on a strip of 6 mm.*length in mm"
+        modulus(a_percent_more, reading="strip", length=gc.mm(6)),
+        "warned: .*wide on a strip of 6 mm.*length in mm",
+        alarm="wide on a strip",
     ),
     "knee: bodies of the other leg": Finding(
-        settled(bodies=("femur_l", "tibia_l")), "warned: .*femur_l in `bodies` of the left"
+        settled(bodies=("femur_l", "tibia_l")), "warned: .*femur_l in `bodies` of the left", alarm="in `bodies` of the"
     ),
     "knee: a load 100 mm beside": Finding(
         settled(load_point="0,0,100", free=("adduction", "rotation"), springs={"rotation": 20.6}),
         "refused: .*no frame came to rest.*`load_point`",
+        alarm="no frame came to rest",
     ),
 }
 RIGHT: dict[str, Attempt] = {
@@ -181,8 +189,29 @@ def test_a_wrong_input_is_heard_of(finding: Finding, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("attempt", RIGHT.values(), ids=RIGHT)
 def test_what_nearly_is_wrong_is_not_doubted(attempt: Attempt, tmp_path: Path) -> None:
-    words = "|".join(finding.words.partition(".*")[2] or finding.words for finding in FINDINGS.values())
+    words = "|".join(finding.forbidden for finding in FINDINGS.values())
     assert not [line for line in attempt(tmp_path) if line.startswith("refused") or re.search(words, line)]
+
+
+TIMES = np.arange(0.0, 3.0, 0.02)
+SWELLING = 8.0 * np.clip(np.cos(2.0 * np.pi * TIMES / 3.0), 0.0, None)
+
+
+@pytest.mark.parametrize(
+    ("force", "doubted"),
+    [
+        (np.where(SWELLING < 2.0, 0.0, SWELLING), False),  # a mat's threshold of 2 N, reached while the strap slackens
+        (np.where(TIMES < 1.5, np.where(SWELLING < 2.0, 0.0, SWELLING), 0.0), False),  # and stays slack
+        (np.where(TIMES < 2.0, 8.0, 0.0), True),  # off until the end
+        (np.where(np.abs(TIMES - 1.5) < 0.2, 0.0, 8.0), True),
+        (np.where(np.abs(TIMES - 0.4) < 0.1, 0.0, SWELLING), True),
+    ],
+)
+def test_a_jump_is_one_beside_the_slope_before_it(force: np.ndarray, doubted: bool, tmp_path: Path) -> None:
+    pd.DataFrame({"time [s]": TIMES, "normal [N]": force}).to_csv(tmp_path / "strap.csv", index=False)
+    with collecting(Record("test", {})) as record:
+        strap_force(tmp_path / "strap.csv", "strap", "thigh", TIMES)
+    assert any("was its cell off" in line for line in record.warnings) is doubted
 
 
 @pytest.mark.parametrize(("lowered", "doubted"), [(0.05, False), (0.15, False), (0.3, True)])

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import geocontact as gc
 from geocontact.analyses.gap.block_means import LONGEST, Evenness, averaged
@@ -89,6 +91,37 @@ def test_noise_that_remembers_shrinks_less() -> None:
     share = (1.0 + 2.0 * float(((1.0 - lags / size) * kept**lags).sum())) / size
     assert size > 10
     assert fewer.noise["torque"] == pytest.approx(5.0 * NOISE * share**0.5, rel=0.15)
+
+
+def slow(memory: float, sd: float, _: Column, torque: Column) -> Column:
+    """Noise of an Ornstein-Uhlenbeck process with a memory of so many samples, added."""
+    kept, rng = float(np.exp(-1.0 / memory)), np.random.default_rng(int(1e6 * abs(torque[0])))
+    drive = (1.0 - kept**2) ** 0.5 * rng.standard_normal(len(torque))
+    drive[0] = rng.standard_normal()
+    return np.asarray(torque + sd * lfilter([1.0], [1.0, -kept], drive))
+
+
+SLOW = 0.3  # of noise beside the white one, in N m
+
+
+@pytest.mark.parametrize("memory", [100.0, 200.0, 1000.0])
+def test_noise_slower_than_a_block_stays(memory: float) -> None:
+    """Beside white noise, against the variance of the means of both in closed form."""
+    case = replace(
+        quick_case(partial(slow, memory, SLOW), seconds=20.0), noise={"torque": float(np.hypot(NOISE, SLOW))}
+    )
+    fewer, size = averaged(case, ("torque",), ("angle",))
+    lags = np.arange(1, size)
+    kept = (1.0 + 2.0 * float(((1.0 - lags / size) * np.exp(-lags / memory)).sum())) / size
+    assert size >= 30
+    assert fewer.noise["torque"] == pytest.approx((NOISE**2 / size + SLOW**2 * kept) ** 0.5, rel=0.03)
+
+
+def test_a_right_model_fits_means_with_slow_noise(elsewhere: Elsewhere) -> None:
+    """A spring as it is: what the means have beside it is the stated noise."""
+    d = elsewhere(answered, partial(slow, 200.0, SLOW), float(np.hypot(NOISE, SLOW)))
+    assert "blocks of 40" in d["said"][0]
+    assert (d["verdict"], d["effects"]) == ("no_gap", []), d["remarks"]
 
 
 def pulse(time: Column, torque: Column) -> Column:
@@ -179,9 +212,9 @@ def test_it_is_said_and_no_short_recording_is_touched(tmp_path: Path) -> None:
     assert thinned_and_said(short, system_of(short)) == (short, ())
 
 
-def answered(change: Change) -> dict[str, object]:
-    """Diagnosis of a quick recording as the command has it."""
-    case = quick_case(change)
+def answered(change: Change, noise: float = NOISE) -> dict[str, object]:
+    """Diagnosis of a quick recording as the command has it, with a stated noise."""
+    case = replace(quick_case(change), noise={"torque": noise})
     case, said = thinned_and_said(case, system_of(case))
     return diagnose(case, system_of(case)).diagnosis.as_dict() | {"said": said}
 

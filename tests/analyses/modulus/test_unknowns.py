@@ -22,7 +22,8 @@ def test_adduction_from_tables_at_several_offsets(tmp_path: Path) -> None:
     files = tilted(tmp_path, -2.0, 0.0, 2.0, 0.8)
     force = pressed(tmp_path, pd.read_csv(files.pop()))
     trial = {"predict_area": files, "predict_force": force}
-    result = modulus(files, force, free={"adduction": None}, **trial, **KNOWN)
+    with pytest.warns(InputWarning, match=r"`predict_area` has the areas of `area`, sample by sample"):
+        result = modulus(files, force, free={"adduction": None}, **trial, **KNOWN)
     numbers = describe(result.found)
     assert numbers["side"] == "both" and numbers["compartments"] == {} and numbers["frames"] == 56
     assert numbers["adduction_deg"] == pytest.approx(0.8, abs=1e-3)

@@ -38,7 +38,7 @@ CLEARER = 0.5
 SHARED, ALIKE = 0.5, 0.02
 """Share of a trial's samples within the times of another one, and of the standard deviation of a channel by which the
 two differ, from which it is a copy of that one: no two movements of a person are alike to a fiftieth."""
-FOOT, ZONE = "foot", "k_"
+FOOT, ZONE = "foot", ("k_", "b_")
 """System whose force law has numbers by the names of `FOOT_LAW`, and what names of its zones begin with: k_heel."""
 STEPS = 40
 """Lags that are tried to either side."""
@@ -182,18 +182,19 @@ def _unexplained(values: Float[np.ndarray, " t"], regressors: Float[np.ndarray, 
 def _doubt_law(case: GapCase, file: Path) -> None:
     """Numbers of a foot's force law, constants and where parameters start: refused or warned of as those of `cop`.
 
-    Of the zones' stiffnesses only the largest is looked at: a zone that a stance hardly loads may have any, or none.
+    Of the zones' stiffnesses and of their dampings only the largest is looked at: a zone that a stance hardly loads may
+    have any, or none.
     """
     starts = {one.name: one.start for one in case.parameters}
-    zones = sorted((name for name in starts if name.startswith(ZONE)), key=starts.__getitem__)[:-1]
-    asked = {name: value for name, value in starts.items() if name not in zones}
+    stiff, damped = (sorted((name for name in starts if name.startswith(of)), key=starts.__getitem__) for of in ZONE)
+    asked = {name: value for name, value in starts.items() if name not in stiff[:-1]}
     for place, values in (("[constants]", case.constants), ("[parameters]", asked)):
         for name, value in values.items():
             for _, known, number in numbers_in(FOOT_LAW, {name.partition("_")[0] if name in starts else name: value}):
                 refusal, doubt = known.refusal(number), known.doubt(number)
                 if refusal:
                     raise InputError(file, f"{place} {name}", *refusal)
-                if doubt:
+                if doubt and name not in damped[:-1]:
                     reserve(f"{file} {place} {name}: {doubt}")
     still, sliding = (case.constants.get(name, 0.0) for name in ("mu_s", "mu_k"))
     if sliding > still:

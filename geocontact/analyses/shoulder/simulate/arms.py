@@ -37,6 +37,7 @@ from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Ha
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 from geocontact.shoulder_exoskeleton.working_arm import SCREWING, SimulatedArm, arm_at_work
 from geocontact.trial_checks.recorded import TrialInputs
+from geocontact.trial_checks.table import WORK_CHECKS
 
 CURRENT = 1.0
 """A; a tool that idles takes less."""
@@ -89,7 +90,7 @@ def worn_along(
     arm = None if o.person is None else wearer.upper_arm
     given = TrialInputs(mass=mass, height=o.height, upper_arm=arm, mass_option=mass_option)
     trial = replace(given, markers=seen, plates=on.plates, turn=turn_of(o.axes))
-    check_trial(replace(trial, stands_at=on.stands_at, surely=on.surely))
+    check_trial(replace(trial, stands_at=on.stands_at, surely=on.surely), WORK_CHECKS)
     settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)
     found = smoothed_arms(seen, settings, None if o.cutoff == 0.0 else o.cutoff, o.side)
     for line in found.notes:

@@ -45,10 +45,10 @@ if TYPE_CHECKING:
 
 SEATED_TASKS = ("standing up", "sitting down")
 STUDY, ANGLES = "study.toml", "coordinates.mot"
-FAR_OUT, FAR_APART = 15.0, 5.0
+FAR_OUT, FAR_APART = 15.0, 10.0
 """Degrees, root mean square, from which a warning says so. Out of the plane: a thigh of 0.42 m appears 14 mm shorter,
 as much as the hip's centre is off by a functional method (13 mm: Leardini et al. 1999, J Biomech 32:99). Between both
-legs: errors of more than 5 degrees may mislead (McGinley et al. 2009, Gait Posture 29:360)."""
+legs: invented, twice the error from which an angle may mislead (McGinley et al. 2009, Gait Posture 29:360)."""
 MEANT = [
     "Shank and thigh are the lines between the centres of their joints.",
     "The trunk is the line from the hips to the mass centre of trunk, head and arms.",
