@@ -1,6 +1,6 @@
 """How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER --only COMMAND …`.
 
-Without `--only` all of them are run, half a CPU hour or so. Synthetic inputs of four sizes for each command; CPU seconds
+Without `--only` all of them are run, half a CPU hour. Synthetic inputs of four sizes for each command; CPU seconds
 and peak memory of a process of its own, on one thread, kernels compiled before. Slopes are those of a straight line
 through the logarithms of the larger three sizes, after what the smallest takes has been subtracted, the program with
 it: 1 where each further row costs the same. Writes results/growth.json after each command, in which commands that were
