@@ -23,7 +23,7 @@ import pandas as pd
 from jaxtyping import Float
 
 from benchmarks.machine import write_results
-from benchmarks.robustness.growth import run
+from benchmarks.robustness.growth_inputs import run
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals

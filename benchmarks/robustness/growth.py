@@ -1,17 +1,17 @@
-"""How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER`, 12 CPU minutes.
+"""How commands grow with their input: `nice python -m benchmarks.robustness.growth FOLDER --only COMMAND …`.
 
-Synthetic inputs of four sizes for each command; CPU seconds and peak memory of a process of its own, on one thread,
-kernels compiled before. Slopes are those of a straight line through the logarithms of the larger three sizes, after
-what the smallest takes has been subtracted, the program with it: 1 where each further row costs the same. Writes
-results/growth.json, in which commands that were not run stay as they were, and prints the table of
-docs/reference/speed.md.
+Without `--only` all of them are run, half a CPU hour. Synthetic inputs of four sizes for each command; CPU seconds
+and peak memory of a process of its own, on one thread, kernels compiled before. Slopes are those of a straight line
+through the logarithms of the larger three sizes, after what the smallest takes has been subtracted, the program with
+it: 1 where each further row costs the same. Writes results/growth.json after each command, in which commands that were
+not run stay as they were, and prints the table of docs/reference/speed.md.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -21,15 +21,13 @@ from typing import Any
 import numpy as np
 
 from benchmarks.machine import write_results
-from benchmarks.one_core import THREADS
+from benchmarks.robustness import growth_inputs as more
+from benchmarks.robustness.growth_inputs import MESHES, ROOT, rows_of, run
 from meshes.simple_shapes import sphere
 from meshes.stl import stl_bytes
 
-ROOT = Path(__file__).resolve().parents[2]
-MESHES = ROOT / "meshes"
 KEPT = ROOT / "benchmarks" / "results" / "growth.json"
 TILES = 10  # turns of a recording whose noise differs
-CHUNK = 10_000  # rows that are made at a time
 
 
 @dataclass(frozen=True)
@@ -42,16 +40,6 @@ class Run:
     peak_mb: float
     output_mb: float
     page_mb: float
-
-
-def rows_of(
-    file: Path, head: str, n: int, made: Callable[[np.ndarray], np.ndarray], form: str, between: str = ","
-) -> None:
-    """A table of n rows, written in chunks; `made` gives the columns for numbers of rows."""
-    with file.open("w", encoding="utf-8") as stream:
-        stream.write(head + "\n")
-        for start in range(0, n, CHUNK):
-            np.savetxt(stream, made(np.arange(start, min(n, start + CHUNK))), form, between)
 
 
 def loadcells(folder: Path, n: int) -> list[str]:
@@ -197,23 +185,21 @@ COMMANDS: dict[str, tuple[Callable[[Path, int], list[str]], tuple[int, ...]]] = 
     "joint": (joint, (300, 1_000, 3_000, 10_000)),
     "ik": (ik, (300, 1_000, 3_000, 10_000)),
     "id": (inverse_dynamics, (1_000, 4_000, 10_000, 40_000)),
+    "pairs": (more.pairs, (11, 31, 101, 303)),
+    "settle-pairs": (more.settle_pairs, (3, 6, 12, 24)),
+    "knee settle": (more.knee_settle, (3, 11, 31, 101)),
+    "modulus": (more.modulus, (100, 1_000, 10_000, 100_000)),
+    "scale": (more.scale, (100, 1_000, 10_000, 40_000)),
+    "elbow simulate": (more.elbow_simulate, (1_000, 10_000, 40_000, 100_000)),
+    "elbow fit": (more.elbow_fit, (1_000, 10_000, 40_000, 100_000)),
+    "shoulder simulate": (more.shoulder_simulate, (200, 800, 2_400, 8_000)),
+    "shoulder compare": (more.shoulder_compare, (800, 8_000, 40_000, 100_000)),
+    "prosthesis simulate": (more.prosthesis_simulate, (97, 200, 400, 800)),
+    "sit-to-stand predict": (more.standing_predict, (10, 20, 40, 80)),
+    "sit-to-stand calibrate": (more.standing_calibrate, (10, 15, 20, 30)),
+    "cohort": (more.cohort, (2, 6, 18, 54)),
 }
-"""Inputs of each command, and their sizes: rows, frames or faces."""
-
-
-def run(folder: Path, words: Sequence[str]) -> tuple[float, float]:
-    """CPU seconds and peak memory [MB] of a command that starts in a folder; RuntimeError with what a failure says."""
-    environment = os.environ | dict.fromkeys(THREADS, "1") | {"PYTHONPATH": str(ROOT)}
-    program = f"import os, sys; os.chdir({str(folder)!r})\nfrom geocontact.cli.main import main\nmain()\n"
-    with (folder / "said").open("wb") as said:
-        streams = [(os.POSIX_SPAWN_DUP2, said.fileno(), each) for each in (1, 2)]
-        child = os.posix_spawn(
-            sys.executable, [sys.executable, "-c", program, *words], environment, file_actions=streams
-        )
-        _, status, used = os.wait4(child, 0)
-    if status:
-        raise RuntimeError((folder / "said").read_text(encoding="utf-8"))
-    return used.ru_utime + used.ru_stime, used.ru_maxrss * 1024e-6
+"""Inputs of each command, and their sizes: rows, frames, faces, samples, nodes or subjects."""
 
 
 def measured(command: str, n: int, folder: Path) -> Run:
@@ -234,8 +220,8 @@ def slope(sizes: Sequence[int], values: Sequence[float]) -> float:
 def table(runs: Sequence[Run]) -> list[dict[str, object]]:
     """For each command: its runs, the slopes of CPU time and of memory, and memory for each further row [kB]."""
     found: list[dict[str, object]] = []
-    for command in dict.fromkeys(run.command for run in runs):
-        own = [run for run in runs if run.command == command]
+    for command in dict.fromkeys(one.command for one in runs):
+        own = [one for one in runs if one.command == command]
         sizes = [run.n for run in own]
         memory = (own[-1].peak_mb - own[0].peak_mb) / (sizes[-1] - sizes[0]) * 1e3
         found.append(
@@ -272,27 +258,27 @@ def main() -> None:
     """Run all, or those that are named, and keep the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--only", nargs="*", default=list(COMMANDS))
+    parser.add_argument("--only", nargs="*", choices=COMMANDS, default=list(COMMANDS))
     parser.add_argument("--largest", type=int, default=sys.maxsize, help="of the sizes; larger ones are left out")
     given = parser.parse_args()
-    runs = []
     for command in given.only:
+        runs = []
         for n in (size for size in COMMANDS[command][1] if size <= given.largest):
-            runs.append(measured(command, n, given.folder.resolve() / f"{command.replace(', ', '_')}_{n}"))
+            runs.append(measured(command, n, given.folder.resolve() / f"{re.sub('[ ,]+', '_', command)}_{n}"))
             print(json.dumps(asdict(runs[-1])), flush=True)
+        kept = keep(command, runs, given.largest)
+    print("\n".join(lines(kept)))
+
+
+def keep(command: str, runs: Sequence[Run], largest: int) -> list[Mapping[str, Any]]:
+    """Write the figures with those of a command in place of its earlier ones; all of them, in the order of the page."""
     before = json.loads(KEPT.read_text(encoding="utf-8"))["figures"] if KEPT.exists() else []
-    kept = [Run(**one) for each in before if each["command"] not in given.only for one in each["runs"]]
-    found: dict[object, Mapping[str, Any]] = {each["command"]: each for each in table([*kept, *runs])}
-    ordered = [found[command] for command in COMMANDS if command in found]
-    print(
-        write_results(
-            "growth",
-            {"largest": given.largest if given.largest < sys.maxsize else None},
-            ordered,
-            {"numpy", "pandas", "scipy", "numba"},
-        )
-    )
-    print("\n".join(lines(ordered)))
+    others = [Run(**one) for each in before if each["command"] != command for one in each["runs"]]
+    found: dict[object, Mapping[str, Any]] = {each["command"]: each for each in table([*others, *runs])}
+    ordered = [found[each] for each in COMMANDS if each in found]
+    asked = {"largest": largest if largest < sys.maxsize else None}
+    print(write_results("growth", asked, ordered, {"numpy", "pandas", "scipy", "numba"}))
+    return ordered
 
 
 if __name__ == "__main__":

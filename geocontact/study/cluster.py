@@ -43,7 +43,7 @@ NANNY = 0.95
 """Dask's nanny ends a process that holds this share of its memory."""
 KEEPS = "export DASK_DISTRIBUTED__WORKER__MEMORY__TERMINATE=False"
 """Unless this is said: where trials may hold more, their own limit and the queue's are enough."""
-LISTED = re.compile(r"^ {0,10}([0-9]+)(?=[\s._\[]|$)", re.MULTILINE)
+LISTED = re.compile(r" {0,10}([0-9]+)(?=[\s._\[]|$)")
 """Number of a job, where a line of what a queue lists begins."""
 LOST = 20.0  # s; after which a job that was there and is gone is submitted anew
 
@@ -100,20 +100,49 @@ class ClusterSettings(Document):
 
 @dataclass(frozen=True)
 class QueueingSystem:
-    """A queueing system: class of dask-jobqueue, commands that submit and list jobs, the keyword for who pays."""
+    """A queueing system.
+
+    Parameters
+    ----------
+    cluster
+        Class of dask-jobqueue.
+    submits, lists
+        Commands that submit and list jobs.
+    state
+        Column of the state in that list, from 0.
+    over
+        Pattern of states in which a job does nothing more, though it may be listed for long.
+    account
+        The keyword for who pays.
+    """
 
     cluster: str
     submits: str
     lists: tuple[str, ...]
+    state: int
+    over: re.Pattern[str]
     account: str = "account"
+
+    def alive(self, said: str) -> set[str]:
+        """Numbers of the jobs in a list that run or may still run; one without a state may."""
+        found = set()
+        for line in said.splitlines():
+            words, number = line.split(), LISTED.match(line)
+            if number and not (len(words) > self.state and self.over.fullmatch(words[self.state])):
+                found.add(number[1])
+        return found
 
 
 SYSTEMS = {
-    "slurm": QueueingSystem("SLURMCluster", "sbatch", ("squeue", "-h", "-o", "%i")),
-    "pbs": QueueingSystem("PBSCluster", "qsub", ("qstat",)),
-    "lsf": QueueingSystem("LSFCluster", "bsub", ("bjobs",), "project"),
-    "sge": QueueingSystem("SGECluster", "qsub", ("qstat",), "project"),
+    "slurm": QueueingSystem(
+        "SLURMCluster", "sbatch", ("squeue", "-h", "-o", "%i %t"), 1, re.compile("CG|CD|CA|F|TO|NF|OOM|BF|DL|PR")
+    ),
+    "pbs": QueueingSystem("PBSCluster", "qsub", ("qstat",), 4, re.compile("[ECFX]")),
+    "lsf": QueueingSystem("LSFCluster", "bsub", ("bjobs",), 2, re.compile("DONE|EXIT|ZOMBI"), "project"),
+    "sge": QueueingSystem("SGECluster", "qsub", ("qstat",), 4, re.compile("d.*|E.*"), "project"),
 }
+"""States by the manuals of squeue(1), qstat of PBS and of SGE, bjobs(1): a job whose node does not answer stays
+`completing` or `deleted` in the list for as long as the node is away; one of SGE in error waits for somebody."""
 
 
 @dataclass(frozen=True)
@@ -203,7 +232,7 @@ class Jobs:
         """A cluster of dask-jobqueue, whose jobs are cancelled with the block."""
         try:
             import dask_jobqueue
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             what = f"needs {error.name}, which is not installed"
             raise InputError("", "`scheduler`", what, "pip install 'geocontact[cohort]'") from error
         for program in (self._system.submits, self._system.lists[0]):
@@ -251,7 +280,7 @@ class Jobs:
         return min(self._asked.jobs, self.missing) * self._size.processes
 
     def queued(self, cluster: Any) -> bool:
-        """Whether the queue lists one of the jobs."""
+        """Whether the queue lists one of the jobs as one that runs or may still run."""
         ids = {str(job.job_id) for job in list(cluster.workers.values()) if job.job_id is not None}
         try:
             said = subprocess.run(
@@ -259,7 +288,7 @@ class Jobs:
             ).stdout
         except (OSError, subprocess.TimeoutExpired):  # it does not answer: nothing is known, and jobs may be there
             return bool(ids)
-        return bool(ids & {*LISTED.findall(said)})
+        return bool(ids & self._system.alive(said))
 
 
 def _noting(jobs: Jobs, base: Any) -> type:

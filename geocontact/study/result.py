@@ -11,59 +11,54 @@ r"""Studies: `geocontact cohort`, `gc.cohort`.
 
 from __future__ import annotations
 
-import errno
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input, listener, note, reserve, results_place, say
+from geocontact.analyses.frame.collector import add_input, results_place
 from geocontact.analyses.frame.folder import Scratch
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.main_numbers import factor_of
 from geocontact.analyses.frame.result import REPORT, Result
-from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns, judge_several, reserve_of_several
+from geocontact.analyses.frame.several import CONTRADICTS, doubt_columns
 from geocontact.analyses.motion.gait_cycles import cutting_of
-from geocontact.analyses.motion.styles import Cutting, Trials, shifts_between
+from geocontact.analyses.motion.styles import Trials, shifts_between
 from geocontact.data.errors import InputError
 from geocontact.data.trial import mean_and_sd
 from geocontact.io.text.units import split_header
-from geocontact.study.clean_up import clear, not_asked_for, note_asked, size_in_words
-from geocontact.study.curves import StudyCurves, curves_of, require_summary
-from geocontact.study.description import StudyFile, read_study_file
-from geocontact.study.graph import StepState, graph_picture, in_words, step_states
+from geocontact.study.curves import StudyCurves
+from geocontact.study.description import read_study_file
+from geocontact.study.graph import StepState, graph_picture, step_states
 from geocontact.study.options import CohortOptions
-from geocontact.study.plan import LEFT, PLANNED, WITHOUT, Evaluation, StudyPlan
+from geocontact.study.plan import LEFT, PLANNED, WITHOUT, StudyPlan
 from geocontact.study.selection import MANIFEST, asked_for, known_failures, refuse_odd
 from geocontact.study.show import study_curves, study_page
-from geocontact.study.steps import StepRun, runs_of
+from geocontact.study.steps import runs_of
 from geocontact.study.store import RESULTS, Store
+from geocontact.study.studied import PlannedStudy, StudiedTrial, checked, looked_at, say_copies, say_plan, studied
 from geocontact.study.surface import (
     SurfaceValues,
     surface_difference_table,
     surface_fields,
     surface_table,
-    surface_values,
 )
 from geocontact.study.tables import (
     agreement_table,
     difference_table,
     ensemble_table,
     latex,
-    means_by_condition,
     outlier_table,
     value_table,
 )
-from geocontact.study.trial_run import DONE, FAILED, SET_ASIDE, WRONG, TrialOutcome
-from geocontact.study.trials import CohortTrial
-from geocontact.study.words import say_differences, say_how_many, say_surface
+from geocontact.study.trial_run import DONE, FAILED, WRONG
 from geocontact.view.surfaces.points_vtp import write_points_vtp
 
 if TYPE_CHECKING:
@@ -76,16 +71,6 @@ TABLES = "tables"
 PRINTED = ("values", "agreement")
 """Tables that are written as LaTeX too."""
 WRONG_CODE, FAILED_CODE = 2, 1
-LEAVE_OUT = "their numbers are in tables and means: mend them, or name them in `[[leave_out]]`"
-
-
-@dataclass(frozen=True)
-class PlannedStudy:
-    """The description, and the evaluations that it comes to."""
-
-    file: StudyFile
-    runs: tuple[StepRun, ...]
-    cutting: Cutting | None = None
 
 
 def read(o: CohortOptions) -> PlannedStudy:
@@ -101,25 +86,6 @@ def read(o: CohortOptions) -> PlannedStudy:
     if o.only:
         refuse_odd(study, o.only)
     return PlannedStudy(study, tuple(runs), cutting_of(o.events, o.cycle_side, o.part))
-
-
-@dataclass(frozen=True)
-class StudiedTrial:
-    """A trial of a step, the address of its results, and what became of it."""
-
-    step: str
-    trial: CohortTrial
-    address: str
-    outcome: TrialOutcome
-
-    def called(self, *, step: bool) -> str:
-        """Name of the trial, after that of its step where there are several."""
-        return f"{self.step} of {self.trial.name}" if step else self.trial.name
-
-    def noted(self, before: Mapping[tuple[str, str], tuple[str, str]]) -> tuple[str, str]:
-        """State and words for the table; of one that is left as it is what it failed with in an earlier run."""
-        now = self.outcome.state, self.outcome.line
-        return before.get((self.step, self.trial.name), now) if self.outcome.state == LEFT else now
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -297,12 +263,6 @@ class CohortResult(Result):
             write_points_vtp(folder / "surface.vtp", self.surface.points, surface_fields(self.surface))
 
 
-def _say_copies(plan: StudyPlan) -> None:
-    """A warning for each trial whose inputs are a copy of another one's."""
-    for words in plan.copies:
-        reserve(f"{words}; name the files of each trial's own recording", cause=True)
-
-
 def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     """Results of all trials that can be evaluated; InputError or OSError where none can be."""
     place = results_place()
@@ -312,14 +272,14 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     plan = StudyPlan(planned.file, planned.runs, store, o, asked_for(planned.file, o, out))
     if o.dry_run:
         plan.look()
-        _say_copies(plan)
+        say_copies(plan)
         return _dry(planned, plan, store, scratch)
     with ExitStack() as held:  # until the tables are written, unless something goes wrong before
         held.enter_context(store.begun())
         plan.look()
-        _say_copies(plan)
-        plan.evaluate(_checked(planned, plan, store))
-        trials, curves, surface = _looked_at(planned, plan, store, o)
+        say_copies(plan)
+        plan.evaluate(checked(planned, plan, store))
+        trials, curves, surface = looked_at(planned, plan, store, o)
         kept = ExitStack() if scratch is not None else held.pop_all()
     return CohortResult(
         planned=planned,
@@ -336,46 +296,11 @@ def run(planned: PlannedStudy, o: CohortOptions) -> CohortResult:
     )
 
 
-def _checked(planned: PlannedStudy, plan: StudyPlan, store: Store) -> Callable[[Evaluation], None]:
-    """What requires of the first trial with results that it has what the summary is about."""
-    own = [one for one in plan.evaluations if one.run.step == planned.file.own_name]
-    alike = len({frozenset(one.trial.options) for one in own}) == 1
-    seen: list[str] = []
-
-    def check(one: Evaluation) -> None:
-        if not seen and one.run.step == planned.file.own_name:
-            seen.append(one.address)
-            require_summary(planned.file, (one.trial, one.address), store, alike=alike)
-
-    return check
-
-
-def _studied(plan: StudyPlan, own: str) -> tuple[tuple[StudiedTrial, ...], tuple[StudiedTrial, ...]]:
-    """Trials of the steps before the analysis, and its own."""
-    every = [
-        StudiedTrial(one.run.step, one.trial, one.address, one.outcome or TrialOutcome(PLANNED))
-        for one in plan.evaluations
-    ]
-    return tuple(one for one in every if one.step != own), tuple(one for one in every if one.step == own)
-
-
 def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch | None) -> CohortResult:
     """What a run would evaluate, in words and as a table."""
     states = step_states(plan.evaluations, store)
-    for one in states:
-        say(one.words)
-    for each in (each for each in plan.evaluations if each.state in (WRONG, WITHOUT)):
-        listener().fail(f"{each.run.step} of {each.trial.name}: {each.outcome.line if each.outcome else ''}")
-    for each in (each for each in plan.evaluations if each.run.without):
-        listener().fail(f"{each.run.step} of {each.trial.name}: {each.run.without_words}")
-    times = [one.seconds for one in states if one.missing]
-    if len(times) > 1 and None not in times:
-        total = sum(one.missing * (one.seconds or 0.0) for one in states)
-        say(f"all of it: about {in_words(total)} of work, shared by the workers")
-    known = all(one.state == DONE for one in plan.evaluations)  # else some may still be those of later steps
-    if known and (left := not_asked_for(store, planned.file, {one.address for one in plan.evaluations})):
-        say(f"no description asks for {size_in_words(left.values())}; `clean_up` removes them")
-    earlier, trials = _studied(plan, planned.file.own_name)
+    say_plan(planned, plan, store, states)
+    earlier, trials = studied(plan, planned.file.own_name)
     return CohortResult(
         planned=planned,
         trials=trials,
@@ -388,64 +313,6 @@ def _dry(planned: PlannedStudy, plan: StudyPlan, store: Store, scratch: Scratch 
         scratch=scratch,
         held=ExitStack(),
     )
-
-
-def _looked_at(
-    planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions
-) -> tuple[tuple[tuple[StudiedTrial, ...], tuple[StudiedTrial, ...]], tuple[StudyCurves, ...], SurfaceValues | None]:
-    """What became of each trial, curves, a surface where there is one; what goes wrong and what differs is said."""
-    earlier, trials = _studied(plan, planned.file.own_name)
-    for one in (*earlier, *trials):
-        if one.outcome.state not in (DONE, LEFT, WITHOUT):
-            listener().fail(f"{one.called(step=bool(earlier))}: {one.outcome.line}")
-    for each in plan.evaluations:
-        if each.run.missing(planned.file.home) is not None and each.outcome is not None:
-            reserve(f"{each.run.step} of {each.trial.name} is left out: {each.outcome.line}")
-        if each.run.without:
-            reserve(f"{each.run.step} of {each.trial.name} is evaluated {each.run.without_words}")
-    done = [one for one in trials if one.outcome.state == DONE]
-    if not any(one.outcome.state == DONE for one in (*earlier, *trials)):
-        _refuse_none(o.study, [one.outcome.state for one in (*earlier, *trials)])
-    note("trials", {"all": len(trials), "done": len(done)})
-    say_how_many(plan.evaluations)
-    _clean(planned, plan, store, o)
-    told = [
-        (one.called(step=bool(earlier)), store.told(one.address))
-        for one in (*earlier, *trials)
-        if one.outcome.state == DONE
-    ]
-    judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
-    reserve_of_several([(name, each["warnings"]) for name, each in told])
-    kept = [(one.trial, one.address) for one in done]
-    curves = curves_of(planned.file, kept, store, planned.cutting) if kept else ()
-    surface = surface_values(planned.file, kept, store)
-    for line in means_by_condition(curves):
-        say(line)
-    say_differences(curves)
-    if surface is not None:
-        say_surface(surface)
-    return (earlier, trials), curves, surface
-
-
-def _refuse_none(study: Path, states: Sequence[str]) -> NoReturn:
-    """InputError where no trial has results by mistakes in their input; OSError where one failed or was ended."""
-    what, remedy = f"none of the {len(states)} trials could be evaluated", "see the lines above"
-    if {*states} & {FAILED, SET_ASIDE}:
-        raise OSError(errno.EIO, f"{what}; {remedy}", str(study))
-    raise InputError(study, "", what, remedy)
-
-
-def _clean(planned: PlannedStudy, plan: StudyPlan, store: Store, o: CohortOptions) -> None:
-    """Keep what the description asks for; remove what none does, where that is asked."""
-    addresses = {one.address for one in plan.evaluations}
-    note_asked(store, planned.file, addresses)
-    if not o.clean_up:
-        return
-    if any(one.state != DONE for one in plan.evaluations):
-        reserve("nothing was removed: evaluations without results may still need what is there")
-        return
-    removed = clear(store, planned.file, addresses)
-    say(f"removed what no description asks for: {size_in_words(removed.values())}")
 
 
 cohort = Job("cohort", CohortOptions, read, run)

@@ -141,7 +141,7 @@ def workers_of(o: CohortOptions, limits: TrialLimits = NO_LIMITS, jobs: Jobs | N
 
         if o.local or jobs is not None:
             import cryptography  # noqa: F401  certificates are made with it
-    except ImportError as error:
+    except ModuleNotFoundError as error:  # another ImportError is of the machine: no memory to load a library into
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
     distributed: Any = library  # its annotations do not say how it is called
     for name in LOGGERS:  # what matters of it is told in one line

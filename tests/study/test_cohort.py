@@ -269,6 +269,18 @@ def test_without_the_extra_it_is_named(tmp_path: Path, monkeypatch: pytest.Monke
     )
 
 
+def test_a_library_that_cannot_be_loaded_is_no_mistake_of_the_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the machine has no memory to map it the error has no name of a module, and a second run may go well."""
+    line = "libssl.so: failed to map segment from shared object"
+    (tmp_path / "cryptography.py").write_text(f"raise ImportError({line!r})\n", encoding="utf-8")
+    monkeypatch.delitem(sys.modules, "cryptography", raising=False)
+    monkeypatch.syspath_prepend(tmp_path)
+    failed = call("cohort", study(tmp_path, NUMBERS), "--run-simulator", "--out", tmp_path / "out")
+    assert failed.code == 1 and line in failed.err and "not installed" not in failed.err, failed
+
+
 def test_a_study_that_is_refused_leaves_no_folder(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text('analysis = "arae"\n', encoding="utf-8")
     told = call("cohort", tmp_path / "study.toml", "--out", tmp_path / "out")

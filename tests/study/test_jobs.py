@@ -268,6 +268,29 @@ def test_only_the_first_column_of_a_queue_names_jobs(
         assert own.queued(cluster) is (number == "4711"), number
 
 
+ROWS = {
+    "slurm": "4711 {}\n",
+    "pbs": "4711.node17  geocontact  ann  00:00:00 {} short\n",
+    "lsf": "4711    ann   {}   short  node1  node17  geocontact  Nov 28 12:30\n",
+    "sge": "   4711 0.55500 geocontact ann  {}  11/28/2026 12:30:00  short@node17  1\n",
+}
+ALIVE = {"slurm": "PD CF R S", "pbs": "Q R H S W T", "lsf": "PEND RUN USUSP UNKWN", "sge": "qw hqw r t Rr s"}
+DEAD = {"slurm": "CG F NF TO", "pbs": "E C F X", "lsf": "EXIT DONE ZOMBI", "sge": "Eqw EhRqw dr dRt"}
+"""States by the manuals: a node that does not answer leaves its jobs completing, exiting or being deleted."""
+
+
+@pytest.mark.parametrize("system", list(SYSTEMS))
+def test_a_study_does_not_wait_for_jobs_that_are_listed_and_dead(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, system: str
+) -> None:
+    own, cluster = jobs(system, tmp_path, TrialLimits(None, 2 * GB)), {"0": SimpleNamespace(job_id="4711")}
+    for states, expected in ((ALIVE, True), (DEAD, False)):
+        for state in states[system].split():
+            said = SimpleNamespace(stdout=ROWS[system].format(state))
+            monkeypatch.setattr(subprocess, "run", lambda *_, said=said, **__: said)
+            assert own.queued(SimpleNamespace(workers=cluster)) is expected, state
+
+
 @pytest.mark.parametrize("key", ["queue", "account", "walltime"])
 @pytest.mark.parametrize("text", ["a\nrm -rf ~", "$(rm)", "a; rm", "a b", "`rm`", '"', ""])
 def test_no_text_of_a_description_reaches_a_shell(tmp_path: Path, key: str, text: str) -> None:

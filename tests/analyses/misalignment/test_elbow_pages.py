@@ -36,6 +36,14 @@ def test_surfaces_stand_in_space_and_say_which_offset_is_0() -> None:
     assert [axes.get_ylabel() for axes in spaces] == ["offset x [mm]", "offset y [mm]"]
 
 
+@pytest.mark.drawn
+def test_a_page_with_surfaces_is_below_2_mb(tmp_path: Path) -> None:
+    """The page holds the picture twice, for light and dark; colours that run into each other had made it 2.9 MB."""
+    gc.misalignment.simulate(**QUICK).write(tmp_path / "out")
+    sizes = {each.name: each.stat().st_size for each in (tmp_path / "out").iterdir()}
+    assert 0.2e6 < sizes["surfaces.svg"] < 0.5e6 and sizes["report.html"] < 2e6, sizes
+
+
 def test_spreads_of_both_conditions_share_an_axis() -> None:
     """Quantiles 0 … 4 N locked and 5 … 9 N free at the same three angles."""
     beta = np.radians([15.0, 25.0, 35.0])

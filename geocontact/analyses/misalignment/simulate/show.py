@@ -41,7 +41,7 @@ def surface_figure(s: Surfaces) -> Figure:
         space.plot_surface(*np.meshgrid(degrees, offset), values, rcount=STRIPES, ccount=STRIPES, lw=0.1, **colours)
         space.set_zlabel("d_tot [mm]")
         panel = figure.add_subplot(2, 2, 3 + column)
-        shown = panel.pcolormesh(degrees, offset, values, shading="gouraud", **colours)
+        shown = panel.pcolormesh(degrees, offset, values, shading="nearest", **colours)
         lines = panel.contour(degrees, offset, values, levels=LEVELS, colors=BLACK, linewidths=0.5)
         panel.clabel(lines, fontsize=SMALL, fmt="%g")
         for axes in (space, panel):
