@@ -16,8 +16,8 @@ OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
 2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
 WITHIN = {"centre": 1.0, "gyration": 0.7}
 """Parts of a segment's length that its mass centre and radius of gyration may be; of a rod they are 0.5 and 0.29."""
-LIGHTEST, SHORTEST = 30.0, 1.2
-"""Body mass [kg] and height [m] below which an adult's age may be in months."""
+LIGHTEST, SHORTEST = 35.0, 1.3
+"""Body mass [kg] and height [m] below which an adult may be a child, whose age is missing or in months."""
 
 
 def doubt_value(where: str, key: str, value: float, usual: float, length: float, beside: str) -> None:
@@ -40,19 +40,22 @@ def doubt_value(where: str, key: str, value: float, usual: float, length: float,
 
 
 def doubt_age(at: tuple[Path | str, str], sex: Sex, age: float | None, mass: float, height: float | None) -> None:
-    """Reservations for boys' masses, and for an age that body mass or height contradicts.
+    """Reservations for boys' masses, and for an age that body mass or height contradicts, also where none is stated.
 
     Children weigh 2 a + 3 to 7 a + 10 kg at a years here: lines of ours outside of charts of growth.
     """
-    if age is None:
-        return
     where = f"{at[0]} {at[1]}".strip()
-    if age < ADULT:
+    small = mass < LIGHTEST or (height is not None and height < SHORTEST)
+    size = f"{mass:.3g} kg" if height is None else f"{mass:.3g} kg and {height:.3g} m"
+    if age is None:
+        if small:
+            reserve(f"{where}: {size} without an age have segments of an adult; state the age of a child", cause=True)
+    elif age < ADULT:
         girls = ", which are applied to girls as well" if sex == "female" else ""
         reserve(f"{where}: masses of segments of boys of {age:g} years (Jensen){girls}; centres and radii of adults")
         if not 2.0 * age + 3.0 <= mass <= 7.0 * age + 10.0:
             reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years and the mass in kg?", cause=True)
-    elif mass < LIGHTEST or (height is not None and height < SHORTEST):
+    elif small:
         reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years, not in months?", cause=True)
 
 

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.options import Options
 from geocontact.analyses.person import person_segments
+from geocontact.analyses.prosthesis.scale.options import ProsthesisScaleOptions
+from geocontact.analyses.prosthesis.simulate.options import ProsthesisSimulateOptions
+from geocontact.analyses.prosthesis.walk.options import ProsthesisWalkOptions
 from geocontact.data.body_segments import BodySegments
+from geocontact.data.plausible import Plausible
 from geocontact.io.documents import checked
+from geocontact.io.recordings.gait_study import GaitPerson
 from geocontact.io.recordings.overhead_study import StudyPerson
+from geocontact.io.recordings.standing_study import StandingStudy
+from geocontact.trial_checks.recorded import TrialInputs
+from geocontact.trial_checks.table import contradictions
 
 AT = "study.toml", "[persons.P1]"
 
@@ -47,6 +58,58 @@ def test_odd_values_are_doubted(
     age: float | None, mass: float, height: float | None, own: dict[str, dict[str, float]], line: str
 ) -> None:
     assert line in said("male", age, mass, height, own)[1][-1]
+
+
+def test_a_child_without_an_age_is_doubted() -> None:
+    assert "21 kg without an age have segments of an adult" in said("male", None, 21.0, None, {})[1][0]
+    assert "40 kg and 1.16 m without an age" in said("male", None, 40.0, 1.16, {})[1][0]
+
+
+CHILD: dict[str, object] = {"mass": {"value": 19, "unit": "kg"}, "age": {"value": 6, "unit": "years"}}
+CHILDREN: dict[str, tuple[type[StudyPerson | GaitPerson], dict[str, object]]] = {
+    "overhead": (StudyPerson, CHILD | {"sex": "male", "dominant": "right"}),
+    "gait": (GaitPerson, CHILD | {"static": "study.toml"}),
+}
+
+
+@pytest.mark.parametrize("kind", CHILDREN)
+def test_children_of_six_are_described(kind: str, tmp_path: Path) -> None:
+    of, content = CHILDREN[kind]
+    (tmp_path / "study.toml").touch()
+    assert checked(tmp_path / "study.toml", of, content).mass == 19.0
+    with pytest.raises(gc.InputError, match="9 kg cannot be the mass of a person"):
+        checked(tmp_path / "study.toml", of, content | {"mass": {"value": 9, "unit": "kg"}})
+
+
+def test_children_of_six_stand_up(tmp_path: Path) -> None:
+    (tmp_path / "c.sto").touch()
+    (tmp_path / "r.sto").touch()
+    trial = {"name": "T1", "coordinates": "c.sto", "rates": "r.sto"}
+    content = {"mass": CHILD["mass"], "height": {"value": 1.16, "unit": "m"}, "trials": [trial]}
+    content["person"] = {"age": CHILD["age"]}
+    assert checked(tmp_path / "study.toml", StandingStudy, content).mass == 19.0
+
+
+@pytest.mark.parametrize("of", [ProsthesisScaleOptions, ProsthesisWalkOptions, ProsthesisSimulateOptions])
+def test_options_leave_a_small_mass_to_the_age(of: type[Options]) -> None:
+    """A usual range that knows no age warned of each child; with an age `doubt_age` does."""
+    hints = get_type_hints(of, include_extras=True)
+    for name, value in (("mass", 19.0), ("height", 1.16)):
+        for known in (each for each in get_args(hints.get(name)) if isinstance(each, Plausible)):
+            assert known.refusal(value) is None and known.doubt(value) is None, (name, known)
+
+
+@pytest.mark.parametrize(("mass", "height"), [(18.0, 1.16), (20.5, 1.21)])
+def test_slim_children_are_not_doubted_as_adults_are(mass: float, height: float) -> None:
+    child = TrialInputs(mass=mass, height=height, age=6.0)
+    assert not contradictions(child) and mass / height**2 < 14.1
+    assert [check.name for check, _ in contradictions(replace(child, mass=15.5, height=1.21))] == ["mass and height"]
+    assert not contradictions(TrialInputs(mass=12.5 * (0.2 / 0.186) ** 2, upper_arm=0.2, age=6.0))
+
+
+def test_an_adult_of_a_childs_build_is_doubted() -> None:
+    for age in (None, 18.0):
+        assert contradictions(TrialInputs(mass=18.0, height=1.16, age=age))
 
 
 @pytest.mark.parametrize(

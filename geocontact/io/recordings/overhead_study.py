@@ -47,11 +47,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
-from geocontact.data.plausible import KG, N, Plausible
+from geocontact.data.plausible import KG, PERSON, N, Plausible
 from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
 from geocontact.io.recordings.described_person import DescribedPerson
 
-WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)
 PUSH = Plausible("the force of a person on the work", N, (0.0, 2000.0), (5.0, 400.0), or_zero=True)
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
@@ -124,7 +123,7 @@ class StudyPerson(DescribedPerson):
         Shoulder bar above the hips.
     """
 
-    mass: Annotated[float, WithUnit(WORKER)]
+    mass: Annotated[float, WithUnit(PERSON)]
     sex: Sex
     dominant: Literal["right", "left"]
     upper_arm: Length | None = None
