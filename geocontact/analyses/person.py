@@ -8,6 +8,7 @@ from pathlib import Path
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.body_segments import ADULT, BodySegments, Sex, body_segments
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import TALL
 
 SUM = 0.01
 """Share of body mass by which own masses of all segments may differ from it."""
@@ -16,8 +17,13 @@ OWN = {"mass": (0.5, 1.8), "length": (0.65, 1.5)}
 2.54, both legs for one 2; trunks with and without arms and head differ by 1.5."""
 WITHIN = {"centre": 1.0, "gyration": 0.7}
 """Parts of a segment's length that its mass centre and radius of gyration may be; of a rod they are 0.5 and 0.29."""
-LIGHTEST, SHORTEST = 30.0, 1.2
-"""Body mass [kg] and height [m] below which an adult's age may be in months."""
+OFF_CENTRE = 0.15
+"""Parts of its length that the mass centre of a segment may be off the table's."""
+SHANK = (0.26, 0.74)
+"""Parts of its length from the knee that the mass centre of a shank may be: a cone's is 0.25 from its base, and the
+residual limb is cut off a frustum."""
+LIGHTEST, SHORTEST = 35.0, 1.3
+"""Body mass [kg] and height [m] below which an adult may be a child, whose age is missing or in months."""
 
 
 def doubt_value(where: str, key: str, value: float, usual: float, length: float, beside: str) -> None:
@@ -40,20 +46,32 @@ def doubt_value(where: str, key: str, value: float, usual: float, length: float,
 
 
 def doubt_age(at: tuple[Path | str, str], sex: Sex, age: float | None, mass: float, height: float | None) -> None:
-    """Reservations for boys' masses, and for an age that body mass or height contradicts.
+    """Reservations for boys' masses, and for an age that body mass or height contradicts, also where none is stated.
 
     Children weigh 2 a + 3 to 7 a + 10 kg at a years here: lines of ours outside of charts of growth.
     """
-    if age is None:
-        return
     where = f"{at[0]} {at[1]}".strip()
-    if age < ADULT:
+    small = mass < LIGHTEST or (height is not None and height < SHORTEST)
+    size = f"{mass:.3g} kg" if height is None else f"{mass:.3g} kg and {height:.3g} m"
+    if age is None:
+        if small:
+            reserve(f"{where}: {size} without an age have segments of an adult; state the age of a child", cause=True)
+    elif age < ADULT:
         girls = ", which are applied to girls as well" if sex == "female" else ""
         reserve(f"{where}: masses of segments of boys of {age:g} years (Jensen){girls}; centres and radii of adults")
         if not 2.0 * age + 3.0 <= mass <= 7.0 * age + 10.0:
             reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years and the mass in kg?", cause=True)
-    elif mass < LIGHTEST or (height is not None and height < SHORTEST):
+    elif small:
         reserve(f"{where}: {mass:.3g} kg at {age:g} years: is the age in years, not in months?", cause=True)
+
+
+def _require_shank(found: BodySegments, at: tuple[Path | str, str]) -> None:
+    """InputError for a mass centre at which no shank that tapers evenly has it."""
+    least, most = SHANK
+    centre = found["shank"].centre
+    if not least <= centre <= most:
+        what = f"the shank's centre is at {centre:.2f} of its length, not {least:g} to {most:g}"
+        raise InputError(*at, what, "give it from the knee, in the unit of the length; de Leva's men have 0.45")
 
 
 def person_segments(
@@ -84,6 +102,11 @@ def person_segments(
         raise InputError(source, place, str(error), "write length or height") from error
     if not own:
         return found
+    _require_shank(found, at)
+    if height is None and any("length" in values for values in own.values()):
+        impossible = TALL.refusal(found.stature)
+        if impossible is not None:
+            reserve(f"{where}: by own lengths of segments, {impossible[0]}: are they in their unit?", cause=True)
     if found["trunk"].mass <= 0.0 or abs(found.whole - 1.0) > SUM:
         what = (
             f"all segments have {found.whole * mass:.3g} kg, the trunk {found['trunk'].mass * mass:.3g}, of {mass:.3g}"
@@ -96,4 +119,8 @@ def person_segments(
         for key, value in values.items():
             table = usual[name].mass * mass if key == "mass" else scale * usual[name].length
             doubt_value(f"{where} {name}", key, value, table, found[name].length, beside)
+        centre, known = found[name].centre, usual[name].centre
+        if abs(centre - known) > OFF_CENTRE and centre <= WITHIN["centre"]:
+            what = f"its centre is at {centre:.2f} of its length, {known:.2f} in the table"
+            reserve(f"{where} {name}: {what}: is it from the {usual[name].ends[0]}?", cause=True)
     return found

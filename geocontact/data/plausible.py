@@ -220,7 +220,10 @@ DAMPING = Plausible("a damping", N_S_PER_M, (0.0, 1e6), (1.0, 1e4), or_zero=True
 SPEED = Plausible("a speed of sliding", M_PER_S, (1e-6, 20.0), (1e-4, 2.0))
 FRICTION = Plausible("a coefficient of friction", PLAIN, (0.0, 10.0), (0.0, 2.0))
 MASS = Plausible("the mass of a person", KG, (0.1, 1000.0), (3.0, 300.0))
-TALL = Plausible("the height of a person", m, (0.8, 2.5), (0.8, 1.97), why="999 of 1000 men, ANSUR II")
+PERSON = Plausible("the mass of a person", KG, (10.0, 300.0))
+"""From 6 years on; what is usual depends on the age, which is confronted where both are known."""
+TALL = Plausible("the height of a person", m, (0.8, 2.5), (0.8, 2.05), why="999 of 1000 Dutch men")
+"""Dutch men of 21 years are 1.838 m, SD 0.071 (Schönbeck et al., Pediatr. Res. 73, 2013); 2.05 m is 3 SD above."""
 AGE = Plausible("the age of a person whose segments are known", YEARS, (6.0, 110.0))
 
 DEVICE = "hinges and parts of worn devices"

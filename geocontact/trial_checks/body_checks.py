@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.data.body_segments import ADULT
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import GROUND
 from geocontact.trial_checks.landmarks import body_points, middle, points
@@ -24,6 +25,9 @@ FREE = 6
 """Coordinates of a joint that frees a body of the ground; which way a person faces has no range."""
 BUILD = (14.0, 50.0)
 """kg/m^2; severe thinness begins below 16, obesity of class III at 40 (World Health Organization, TRS 894, 2000)."""
+THIN_CHILD = 12.0
+"""kg/m^2, in place of the first below `ADULT`; severe thinness at 6 years begins below 12.1 in boys and 11.7 in girls
+(World Health Organization, growth reference of 5 to 19 years, 2007)."""
 LEG, LEG_OFF = 0.491, 0.15
 """Hip to ankle in parts of the height, thigh 0.245 and shank 0.246 (Drillis and Contini, in Winter, Biomechanics,
 2009, figure 4.1); share of it that may be missing or too much."""
@@ -136,7 +140,7 @@ def build(trial: TrialInputs) -> Iterator[Contradiction]:
         if trial.mass is None or height is None:
             continue
         index = trial.mass / height**2
-        if not BUILD[0] <= index <= BUILD[1]:
+        if not _thin(trial) <= index <= BUILD[1]:
             what = f"is {trial.mass:.4g} kg with {how} of {height:.2f} m, {index:.0f} kg/m²"
             yield Contradiction("", trial.mass_option, what, "are it and the lengths in kg and m, of one person?")
         break
@@ -153,11 +157,16 @@ def build_by_arm(trial: TrialInputs) -> Iterator[Contradiction]:
     if trial.mass is None or trial.upper_arm is None or trial.height is not None:
         return
     height = trial.upper_arm / UPPER_ARM
-    low, high = BUILD[0] * (1.0 - LEG_OFF) ** 2, BUILD[1] * (1.0 + LEG_OFF) ** 2
+    low, high = _thin(trial) * (1.0 - LEG_OFF) ** 2, BUILD[1] * (1.0 + LEG_OFF) ** 2
     if not low <= trial.mass / height**2 <= high:
         what = f"is {trial.mass:.4g} kg with an upper arm of {1e3 * trial.upper_arm:.0f} mm, which belongs to a height "
         what += f"of {height:.2f} m, {trial.mass / height**2:.0f} kg/m²"
         yield Contradiction("", trial.mass_option, what, "are both of one person, in kg and m?")
+
+
+def _thin(trial: TrialInputs) -> float:
+    """Least mass over squared height of who is of that age [kg/m²]."""
+    return BUILD[0] if trial.age is None or trial.age >= ADULT else THIN_CHILD
 
 
 def _source(trial: TrialInputs) -> str:
@@ -278,7 +287,8 @@ BODY_CHECKS = (
     Check(
         "mass and height",
         "mass with height, and height with legs of the model or the pelvis of the standing trial",
-        f"{BUILD[0]:g} to {BUILD[1]:g} kg/m² (severe thinness below 16, class III obesity from 40: WHO, TRS 894); "
+        f"{BUILD[0]:g}, of a child {THIN_CHILD:g}, to {BUILD[1]:g} kg/m² (severe thinness below 16, class III obesity "
+        "from 40: WHO, TRS 894); "
         f"{LEG_OFF:.0%} of the height, hip to ankle being {LEG:g} of it (Drillis and Contini)",
         build,
     ),

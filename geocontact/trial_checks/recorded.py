@@ -113,6 +113,8 @@ class TrialInputs:
         Plates that the analysis uses.
     mass, height
         Of the person [kg, m]; None where it is not given.
+    age
+        Of the person [years]; None where it is not given, which is that of an adult.
     upper_arm
         Of the person, shoulder to elbow [m]; None where it is not given.
     mass_option
@@ -146,6 +148,7 @@ class TrialInputs:
     height: float | None = None
     upper_arm: float | None = None
     mass_option: str = "`mass`"
+    age: float | None = None
     stands_at: float | None = None
     surely: bool = True
     floor: float | None = None

@@ -9,11 +9,14 @@ from geocontact.data.plausible import KG, Plausible
 from geocontact.data.units import deg, m, mm, percent
 
 FULCRUM = Plausible("a fulcrum of a prosthetic foot", mm, (1.0, 500.0))
-PERSON = Plausible("the mass of a walking person", KG, (20.0, 300.0), (35.0, 200.0))
+PERSON = Plausible("the mass of a walking person", KG, (10.0, 300.0), (10.0, 200.0))
+"""Beside an age, by which a small mass is doubted (`analyses.person.doubt_age`)."""
+ADULT = Plausible("the mass of a walking person", KG, (10.0, 300.0), (35.0, 200.0))
+"""Where no age can be stated."""
 RESIDUAL = Plausible("the share of the shank that is left", percent, (1.0, 99.0), (25.0, 80.0))
 LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0), (80.0, 300.0))
 PROSTHESIS = Plausible("the mass of a below-knee prosthesis", KG, (0.3, 10.0), (0.8, 4.0))
-STATURE = Plausible("the height of a person", m, (0.8, 2.6), (1.3, 2.2))
+STATURE = Plausible("the height of a person", m, (0.8, 2.6), (0.8, 2.2))
 SLOPE = Plausible("the slope of a walkway", deg, (-25.0, 25.0), (-12.0, 12.0))
 EDGE = Plausible("the edge of a step under a foot", mm, (0.0, 150.0), (3.0, 150.0), or_zero=True)
 USUAL_SHARE = 0.45

@@ -95,6 +95,7 @@ class LaboratoryFiles:
         other: ForcePlate | None = None,
         floor: float | None = 0.0,
         height: float | None = None,
+        age: float | None = None,
     ) -> None:
         """Warn of whatever two of these say differently; InputError where that leaves no result.
 
@@ -108,15 +109,15 @@ class LaboratoryFiles:
             Plates, and of these the one under the prosthesis and the one under the other foot.
         floor
             Height that the floor is taken to have [m]; None where it is not level.
-        height
-            Of the person [m]; None where it is not known.
+        height, age
+            Of the person [m, years]; None where it is not known.
         """
         feet = ((own, self.side), (other, OTHER[self.side]))
         plates = tuple(FootPlate(plate, fspath(file), side) for plate, side in feet if plate is not None and file)
         named = {on.plate.name for on in plates}
         beside = tuple(each for each in self.plates(file) if each.name not in named) if file else ()
         turn = turn_of(self.axes)
-        check_trial(TrialInputs(seen, standing, plates, mass, height, floor=floor, turn=turn, beside=beside))
+        check_trial(TrialInputs(seen, standing, plates, mass, height, age=age, floor=floor, turn=turn, beside=beside))
 
 
 SHORTEST_SWING = 0.25

@@ -13,7 +13,7 @@ from geocontact.io.text.units import ANGLE
 
 EXAMPLE = "100%"
 CURRENT = Plausible("the current of a tool", Unit("A", "A", 1.0), (0.0, 1000.0), (0.0, 100.0))
-HEIGHT = Plausible("the height of a person", m, (0.5, 2.8), (1.2, 2.2))
+HEIGHT = Plausible("the height of a person", m, (0.5, 2.8), (0.8, 2.2))
 HAND_TOOL = Plausible("the mass of a hand tool", KG, (0.0, 50.0), (0.05, 20.0), or_zero=True)
 PUSH = Plausible("the push on a tool", N, (0.0, 5000.0), (1.0, 500.0), or_zero=True)
 ANKLES = Plausible("the stiffness of ankles over m g h", PLAIN, (0.0, 100.0), (1.0, 5.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from geocontact.analyses.frame.collector import reserve
@@ -24,7 +25,8 @@ def check_study(study: OverheadStudy, file: Path, c3d_unit: LengthUnit | None) -
     """Warn of what a study says twice in different ways; InputError for a trial that stands for its own opposite."""
     for name, person in study.persons.items():
         mass_option = f"mass of [persons.{name}] in {file}"
-        check_trial(TrialInputs(mass=person.mass, upper_arm=person.upper_arm, mass_option=mass_option))
+        size = TrialInputs(mass=person.mass, height=person.height, upper_arm=person.upper_arm, age=person.age)
+        check_trial(replace(size, mass_option=mass_option))
     for name, task in study.tasks.items():
         if task.push > 0.0 and task.push_direction[1] < 0.0 and task.push_direction[1] == min(task.push_direction):
             what = f"{list(task.push_direction)} is downwards in the markers' axes, of work overhead"

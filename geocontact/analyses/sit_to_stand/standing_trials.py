@@ -67,7 +67,8 @@ def standing_trials(
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file, device))
     confront_segments(subject, file)
-    check_trial(TrialInputs(mass=study.mass, height=study.height, mass_option=f"mass in {file}"))
+    size = TrialInputs(mass=study.mass, height=study.height, age=study.person.age, mass_option=f"mass in {file}")
+    check_trial(size)
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
     free = _known(file, "free", study.free, usual, tuple(each.name for each in FOOT_PARAMETERS))
     channels = TRACKS_B if study.exoskeleton else tuple(n for n in TRACKS if n != "rates" or not study.one_leg)

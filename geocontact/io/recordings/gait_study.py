@@ -36,12 +36,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geocontact.data.plausible import KG, Plausible
+from geocontact.data.plausible import PERSON, Plausible
 from geocontact.data.units import mm
 from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
 from geocontact.io.recordings.described_person import DescribedPerson
 
-WALKER = Plausible("the mass of a walking person", KG, (20.0, 300.0))
 FULCRUM = Plausible("the place of a fulcrum", mm, (1.0, 500.0))
 LIMB = Plausible("the length of a residual limb", mm, (20.0, 500.0))
 Side = Literal["right", "left"]
@@ -82,7 +81,7 @@ class GaitPerson(DescribedPerson):
         Description of the person's socket; the study's numbers by default.
     """
 
-    mass: Annotated[float, WithUnit(WALKER)]
+    mass: Annotated[float, WithUnit(PERSON)]
     static: File
     side: Side = "right"
     residual: Annotated[float, WithUnit("-"), Field(gt=0.0, lt=1.0)] | None = None

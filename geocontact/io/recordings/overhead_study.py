@@ -47,15 +47,16 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
-from geocontact.data.plausible import KG, N, Plausible
+from geocontact.data.plausible import KG, PERSON, N, Plausible
 from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
 from geocontact.io.recordings.described_person import DescribedPerson
 
-WORKER = Plausible("the mass of a person", KG, (20.0, 300.0))
 TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)
 PUSH = Plausible("the force of a person on the work", N, (0.0, 2000.0), (5.0, 400.0), or_zero=True)
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
 """Lengths of a person, to which a device is adjusted."""
+SAME_ARM = 0.1
+"""Share by which two lengths of one upper arm may differ."""
 Length = Annotated[float, WithUnit("m")]
 
 
@@ -124,7 +125,7 @@ class StudyPerson(DescribedPerson):
         Shoulder bar above the hips.
     """
 
-    mass: Annotated[float, WithUnit(WORKER)]
+    mass: Annotated[float, WithUnit(PERSON)]
     sex: Sex
     dominant: Literal["right", "left"]
     upper_arm: Length | None = None
@@ -135,6 +136,15 @@ class StudyPerson(DescribedPerson):
     def lengths(self) -> Mapping[str, float]:
         """Those of `LENGTHS` that are known [m]."""
         return {name: value for name in LENGTHS if (value := getattr(self, name)) is not None}
+
+    @model_validator(mode="after")
+    def _require_one_arm(self) -> StudyPerson:
+        own = self.segments.get("upper_arm")
+        length = None if own is None else own.length
+        if self.upper_arm is not None and length is not None and abs(length / self.upper_arm - 1.0) > SAME_ARM:
+            what = f"upper_arm is {self.upper_arm:.3g} m, the length of segments.upper_arm {length:.3g} m"
+            raise refusal(what, "both are from shoulder to elbow: keep one")
+        return self
 
 
 class StudyTrial(Document):

@@ -34,7 +34,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from geocontact.data.body_segments import Sex
-from geocontact.data.plausible import KG, N_M, TALL, N, Plausible
+from geocontact.data.plausible import N_M, PERSON, TALL, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, mm
 from geocontact.io.documents import (
@@ -52,7 +52,6 @@ from geocontact.io.documents import (
 )
 from geocontact.io.recordings.described_person import OWN, Age, Mass
 
-BODY = Plausible("the mass of a person", KG, (20.0, 300.0))
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {
     "length": Plausible("the standard deviation of a place", mm, (1e-4, 1000.0), (0.01, 20.0)),
@@ -220,7 +219,7 @@ class StandingStudy(Document):
         All trials.
     """
 
-    mass: Annotated[float, WithUnit(BODY)]
+    mass: Annotated[float, WithUnit(PERSON)]
     height: Annotated[float, WithUnit(TALL)]
     person: StandingPerson = StandingPerson()
     exoskeleton: bool = False

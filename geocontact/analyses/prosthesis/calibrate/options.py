@@ -18,7 +18,7 @@ from geocontact.analyses.frame.marks import (
     Spelled,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import FULCRUM, PERSON
+from geocontact.analyses.prosthesis.ranges import ADULT, FULCRUM
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, SPEED, TILT
 
@@ -116,7 +116,7 @@ class ProsthesisCalibrateOptions(Options):
     markers: Path
     _: KW_ONLY
     static: Path
-    mass: Annotated[BodyMass, PERSON]
+    mass: Annotated[BodyMass, ADULT]
     plates: Path
     further: Path | None = None
     side: Literal["right", "left"] = "right"

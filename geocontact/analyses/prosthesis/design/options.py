@@ -18,7 +18,7 @@ from geocontact.analyses.frame.marks import (
     Spelled,
 )
 from geocontact.analyses.frame.options import Options
-from geocontact.analyses.prosthesis.ranges import EDGE, FULCRUM, PERSON, SLOPE
+from geocontact.analyses.prosthesis.ranges import ADULT, EDGE, FULCRUM, SLOPE
 from geocontact.below_knee_prosthesis.design.aims import Aim
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import CUTOFF, GAP, NOISE, SHIFT, TILT
@@ -138,7 +138,7 @@ class ProsthesisDesignOptions(Options):
     markers: Path
     _: KW_ONLY
     static: Path
-    mass: Annotated[BodyMass, PERSON]
+    mass: Annotated[BodyMass, ADULT]
     plates: Path
     side: Literal["right", "left"] = "right"
     foot: Path | None = None

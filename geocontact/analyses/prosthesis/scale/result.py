@@ -148,7 +148,7 @@ def read(o: ProsthesisScaleOptions) -> Stood:
     lab = LaboratoryFiles(o.side, o.axes, o.markers_map, o.c3d_unit)
     standing = lab.markers("static", o.static)
     moved = None if o.functional is None else lab.markers("`functional`", o.functional)
-    lab.check(standing, moved, cast(float, o.mass), height=o.height)
+    lab.check(standing, moved, cast(float, o.mass), height=o.height, age=o.age)
     seen, moving = lab.right(standing), None if moved is None else lab.right(moved)
     name, far = largest_motion(seen)
     if far > MOVED:

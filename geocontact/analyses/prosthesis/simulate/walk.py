@@ -106,7 +106,7 @@ def read(o: ProsthesisSimulateOptions, segments: BodySegments | None = None) -> 
     add_input("`plates`", file, plates=len(plates))
     other = plate_named(plates, o.other_plate, file, "`other_plate`")
     own = None if o.plate is None else plate_named(plates, o.plate, file, "`plate`")
-    lab.check(standing, checked, mass, file, own, other, 0.0 if o.ground is None else None)
+    lab.check(standing, checked, mass, file, own, other, 0.0 if o.ground is None else None, age=o.age)
     plate = None if own is None else lab.stance(own, file)
     return RecordedWalk(
         standing=lab.right(standing),

@@ -102,7 +102,7 @@ def read(o: ProsthesisWalkOptions) -> RecordedPerson:
     add_input("`plates`", o.plates, plates=len(plates))
     own = lab.plate_under_foot(o.plates, o.plate, o.mass)
     other = plate_named(plates, o.other_plate, o.plates, "`other_plate`")
-    lab.check(still, walking, o.mass, o.plates, own, other, height=o.height)
+    lab.check(still, walking, o.mass, o.plates, own, other, height=o.height, age=o.age)
     if functional is not None:
         check_trial(TrialInputs(functional, still), only=MOVED_CHECKS)
     standing, seen = lab.right(still), lab.right(walking)

@@ -79,16 +79,24 @@ def read(o: ShoulderSimulateOptions) -> Worn:
 
 
 def worn_along(
-    o: ShoulderSimulateOptions, wearer: Wearer, mass: float | None = None, mass_option: str = "`mass`"
+    o: ShoulderSimulateOptions,
+    wearer: Wearer,
+    mass: float | None = None,
+    mass_option: str = "`mass`",
+    age: float | None = None,
 ) -> Worn:
-    """The same on a wearer who is known; `mass` [kg] where it is no option but stands elsewhere, at `mass_option`."""
+    """The same on a wearer who is known.
+
+    Mass [kg] and age [years] are given where they are no options but stand elsewhere, the mass at `mass_option`.
+    """
     device = device_named(o.device)
     seen = renamed_as_told(markers_given(o.markers, o.axes, o.time, o.c3d_unit), o.markers_map)
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     mass = o.mass if mass is None else mass
     on = StandsOn() if mass is None else standing_on(seen, o.markers, turn_of(o.axes), o.c3d_unit)
     arm = None if o.person is None else wearer.upper_arm
-    given = TrialInputs(mass=mass, height=o.height, upper_arm=arm, mass_option=mass_option)
+    age = o.age if age is None else age
+    given = TrialInputs(mass=mass, height=o.height, upper_arm=arm, mass_option=mass_option, age=age)
     trial = replace(given, markers=seen, plates=on.plates, turn=turn_of(o.axes))
     check_trial(replace(trial, stands_at=on.stands_at, surely=on.surely), WORK_CHECKS)
     settings = MarkerSettings(upright=o.upright, gap_limit=o.gap_limit)

@@ -111,7 +111,7 @@ def _worn(study: OverheadStudy, trial: StudyTrial, share: float, o: StudyOptions
     )
     with collecting(Record("shoulder simulate", {})) as own:
         named = f"mass of [persons.{trial.person}] in {o.study}"
-        found = worn_along(asked, wearer_of_lengths(o.study, person.lengths), person.mass, named)
+        found = worn_along(asked, wearer_of_lengths(o.study, person.lengths), person.mass, named, person.age)
     for entry in own.inputs:
         current().inputs.append(entry | {"role": f"{trial.name} {entry['role']}"})
     for line in own.warnings:

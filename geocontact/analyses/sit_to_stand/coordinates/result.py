@@ -29,7 +29,8 @@ from geocontact.analyses.sit_to_stand.show import motion_page
 from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
-from geocontact.data.plausible import TALL
+from geocontact.data.plausible import Plausible
+from geocontact.data.units import m
 from geocontact.io.opensim.storage_writer import write_storage
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.movements import TASKS, contradiction, hip_height, movements_of
@@ -269,9 +270,13 @@ def run(given: PlanarRecording, o: StandingCoordinatesOptions) -> StandingCoordi
     return result
 
 
+BY_LEGS = Plausible("the height of a person", m, (0.8, 2.5), (0.8, 1.97), why="999 of 1000 men, ANSUR II")
+"""Narrower than `TALL`: legs of a model make no height that was measured, and `height` takes its place."""
+
+
 def _doubt_height(by_legs: float, o: StandingCoordinatesOptions) -> None:
     """A warning for a height by shank and thigh that is unusual; InputError for one that nobody has."""
-    refusal, doubt = TALL.refusal(by_legs), TALL.doubt(by_legs)
+    refusal, doubt = BY_LEGS.refusal(by_legs), BY_LEGS.doubt(by_legs)
     if refusal is not None:
         raise InputError(
             o.model, "shank and thigh", refusal[0], "is the model in m, and are `joints` those of its legs?"
