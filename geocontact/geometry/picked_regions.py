@@ -10,6 +10,9 @@ from scipy.sparse.csgraph import connected_components
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.topology import neighbours
 
+SAME = 1e-9
+"""Share of the diagonal of the corners' box up to which two places are one."""
+
 
 def centroids(surface: Surface) -> Float[np.ndarray, "m 3"]:
     """Mean of the corners of each face [m]."""
@@ -41,22 +44,25 @@ def faces_within(surface: Surface, corners: Float[np.ndarray, "k 3"]) -> Bool[np
     Parameters
     ----------
     corners
-        In their order around the polygon [m]; at least three.
+        In their order around the polygon [m]; at least three. One at the place of the one before it, or of the first
+        at the end, counts once.
 
     Raises
     ------
     ValueError
-        The corners are too few, lie in one line, or the outline crosses itself.
+        The corners are too few, lie in one line, or the outline crosses or touches itself.
     """
     if len(corners) < 3:
         raise ValueError(f"a polygon needs 3 landmarks at least, not {len(corners)}")
+    corners = _without_repeats(corners)
     middle = corners.mean(axis=0)
     _, spread, axes = np.linalg.svd(corners - middle, full_matrices=True)
-    if not spread[1] > 1e-6 * spread[0]:
+    if len(corners) < 3 or not spread[1] > 1e-6 * spread[0]:
         raise ValueError("the landmarks lie in one line: there is no inside")
     outline = (corners - middle) @ axes[:2].T
     if _crosses_itself(outline):
-        raise ValueError("the outline of the landmarks crosses itself; list them in their order around the region")
+        what = "the outline of the landmarks crosses itself or comes back to a place"
+        raise ValueError(f"{what}; list each once, in their order around the region")
     under = _faces_under(surface, corners)
     towards = axes[2] if surface.face_normal[under].sum(axis=0) @ axes[2] >= 0.0 else -axes[2]
     seen = (centroids(surface) - middle) @ axes[:2].T
@@ -78,20 +84,44 @@ def even_odd(points: Float[np.ndarray, "n 2"], outline: Float[np.ndarray, "k 2"]
     return inside
 
 
+def _without_repeats(corners: Float[np.ndarray, "k 3"]) -> Float[np.ndarray, "l 3"]:
+    """The corners that lie apart from the one before them; the first corner is after the last."""
+    away = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)
+    kept = away > SAME * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    return np.asarray(corners[kept] if kept.any() else corners[:1])
+
+
 def _crosses_itself(outline: Float[np.ndarray, "k 2"]) -> bool:
-    """Whether two sides that are no neighbours meet."""
-    ends = np.stack([outline, np.roll(outline, -1, axis=0)], axis=1)
+    """Whether two sides that are no neighbours cross, or one ends on the other; sides in one line may lie apart."""
+    near = SAME * float(np.linalg.norm(np.ptp(outline, axis=0)))
+    sides = list(zip(outline, np.roll(outline, -1, axis=0), strict=True))
     count = len(outline)
+    return any(_meet(sides[i], sides[j], near) for i in range(count) for j in range(i + 2, count - (i == 0)))
 
-    def side(a: Float[np.ndarray, " 2"], b: Float[np.ndarray, " 2"], c: Float[np.ndarray, " 2"]) -> float:
-        return float(np.sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])))
 
-    for i in range(count):
-        for j in range(i + 2, count - (i == 0)):
-            (a, b), (c, d) = ends[i], ends[j]
-            if side(a, b, c) * side(a, b, d) <= 0.0 and side(c, d, a) * side(c, d, b) <= 0.0:
-                return True
-    return False
+Side = tuple[Float[np.ndarray, " 2"], Float[np.ndarray, " 2"]]
+
+
+def _meet(one: Side, other: Side, near: float) -> bool:
+    """Whether two sides share a point, to `near`: each has ends on both sides of the other, or an end is on one."""
+    across = [[_beside(side, end) for end in ends] for side, ends in ((one, other), (other, one))]
+    if all(min(pair) < -near and max(pair) > near for pair in across):
+        return True
+    return any(_away(side, end) <= near for side, ends in ((one, other), (other, one)) for end in ends)
+
+
+def _beside(side: Side, point: Float[np.ndarray, " 2"]) -> float:
+    """Distance of a point from the line of a side, positive to its left."""
+    along = side[1] - side[0]
+    to = point - side[0]
+    return float((along[0] * to[1] - along[1] * to[0]) / np.linalg.norm(along))
+
+
+def _away(side: Side, point: Float[np.ndarray, " 2"]) -> float:
+    """Distance of a point from a side."""
+    along = side[1] - side[0]
+    share = float(np.clip((point - side[0]) @ along / (along @ along), 0.0, 1.0))
+    return float(np.linalg.norm(point - side[0] - share * along))
 
 
 def _faces_under(surface: Surface, points: Float[np.ndarray, "k 3"]) -> Int[np.ndarray, " k"]:

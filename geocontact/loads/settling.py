@@ -23,7 +23,8 @@ with a radius of 0.4 m has this much. Pieces of half a millimetre make up to 0.0
 millimetre make up to 0.08, so that what nothing holds may pass there."""
 
 SHARE = 0.3
-"""Least part of a coordinate in a direction that is not held for it to be named."""
+"""Least part of a coordinate in a direction that is not held for it to be named. In a direction of many coordinates,
+such as a row of bodies that slides as one, none may have so much: named are then those with half of the largest."""
 
 
 def least_held(stiffness: Float[np.ndarray, "6 6"], free: Bool[np.ndarray, " 6"]) -> float:
@@ -39,9 +40,10 @@ def not_held(
     loose = curvature < HELD * load / ARM
     if not loose.any():
         return ()
-    part = np.abs(directions[:, loose]).max(axis=1)
-    chosen = np.array(names)[free]
-    return tuple(str(name) for name, share in zip(chosen, part, strict=True) if share >= SHARE)
+    part = np.abs(directions[:, loose])
+    largest = part.max(axis=0)
+    named = (part >= np.where(largest >= SHARE, SHARE, 0.5 * largest)).any(axis=1)
+    return tuple(str(name) for name in np.array(names)[free][named])
 
 
 def _scaled(stiffness: Float[np.ndarray, "n n"], free: Bool[np.ndarray, " n"]) -> Float[np.ndarray, "k k"]:

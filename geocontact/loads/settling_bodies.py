@@ -13,6 +13,7 @@ those of `settling_potential` along given axes; a force stays along them and act
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -118,7 +119,11 @@ class Assembly:
     def recorded(self) -> Float[np.ndarray, " n"]:
         """Coordinates of the free bodies where the motion has them."""
         own = [self.axes[name].inv() * self.poses[name] for name in self.bodies]
-        values = [coordinates_of(pose, one.point).ravel() for pose, one in zip(own, self.bodies.values(), strict=True)]
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Gimbal lock")  # `turned_too_far` finds where that matters
+            values = [
+                coordinates_of(pose, one.point).ravel() for pose, one in zip(own, self.bodies.values(), strict=True)
+            ]
         return np.concatenate(values)
 
     @property
@@ -255,6 +260,15 @@ def settled(assembly: Assembly, start: Float[np.ndarray, " n"]) -> Rest[BodiesEn
 
 
 def turned_too_far(assembly: Assembly, values: Float[np.ndarray, " n"]) -> str | None:
-    """A body whose turn about x leaves the other two hardly apart; None without one."""
-    turns = np.abs(values[COORDINATES.index("rx") :: 6])
-    return next((name for name, turn in zip(assembly.bodies, turns, strict=True) if turn > UPRIGHT), None)
+    """A body whose coordinates mean little, because its turn about x leaves the other two hardly apart; None without.
+
+    They do where both others settle; and where rx does, from there: its axis is turned by ry. A turn about y alone is
+    about y of the axes and one about z alone about z of the body, however it lies.
+    """
+    ry, rx, rz = (COORDINATES.index(name) for name in ("ry", "rx", "rz"))
+    start = assembly.recorded
+    for k, (name, one) in enumerate(assembly.bodies.items()):
+        at = values if one.free[ry] and one.free[rz] else start
+        if (one.free[rx] or at is values) and abs(at[6 * k + rx]) > UPRIGHT:
+            return name
+    return None

@@ -96,7 +96,11 @@ def test_a_mesh_that_is_inside_out_gives_the_same_faces() -> None:
         ([(0, 0), (5, 5)], "needs 3 landmarks"),
         ([(-5, -5), (0, 0), (5, 5)], "in one line"),
         ([(0, 0), (0, 0), (0, 0)], "in one line"),
+        ([(0, 0), (0, 0), (5, 5), (0, 0)], "in one line"),
         ([(-5, -5), (5, 5), (5, -5), (-5, 5)], "crosses itself"),
+        ([(-8, -8), (8, -8), (0, 0), (8, 8), (-8, 8), (0, 0)], "comes back to a place"),
+        ([(-8, -8), (8, -8), (8, 8), (0, -8), (-8, 8)], "crosses itself or comes back"),
+        ([(-8, -8), (2, -8), (-3, -8), (8, -8), (8, 8)], "crosses itself or comes back"),
     ],
 )
 def test_what_has_no_inside_is_refused(places: list[tuple[float, float]], words: str) -> None:
@@ -106,3 +110,34 @@ def test_what_has_no_inside_is_refused(places: list[tuple[float, float]], words:
 
 def test_a_polygon_smaller_than_a_face_holds_none() -> None:
     assert not faces_within(surface(PLATE), on_top(PLATE, [(0.0, 0.0), (0.01, 0.0), (0.0, 0.01)]) * MM).any()
+
+
+def along(places: list[tuple[float, float]], parts: int) -> list[tuple[float, float]]:
+    """Corners at equal distances along each side of an outline."""
+    ends = zip(places, places[1:] + places[:1], strict=True)
+    return [(a + (c - a) * k / parts, b + (d - b) * k / parts) for (a, b), (c, d) in ends for k in range(parts)]
+
+
+@pytest.mark.parametrize("turned_round", [False, True])
+def test_corners_along_straight_edges_are_the_same_region_wherever_it_lies(turned_round: bool) -> None:
+    """Sides in one line do not meet: a square, and an outline with a bay, whose edges beside it are in one line."""
+    body = moved(PLATE, TURN, SHIFT) if turned_round else PLATE
+    bay = [(0, 0), (30, 0), (30, 14), (20, 14), (20, 7), (10, 7), (10, 14), (0, 14)]
+    for shape in ([(0, 0), (9, 0), (9, 9), (0, 9)], bay):
+        for x, y in np.random.default_rng(3).uniform(-19.0, -11.0, (4, 2)):
+            few = [(a + x, b + y) for a, b in shape]
+            plain, dense = (on_top(PLATE, list(places)) for places in (few, along(few, 3)))
+            chosen = [
+                faces_within(surface(body), (TURN.apply(one) + SHIFT if turned_round else one) * MM)
+                for one in (plain, dense)
+            ]
+            assert chosen[0].any()
+            assert (chosen[0] == chosen[1]).all(), (x, y)
+
+
+@pytest.mark.parametrize("again", [[0, 1, 2, 3, 0], [0, 0, 1, 2, 3], [0, 1, 1, 1, 2, 3], [0, 1, 2, 3, 3, 0, 0]])
+def test_a_corner_given_again_next_to_itself_counts_once(again: list[int]) -> None:
+    places = [(-11.0, -9.3), (12.2, -7.0), (9.1, 13.3), (-8.0, 7.7)]
+    once = faces_within(surface(PLATE), on_top(PLATE, places) * MM)
+    assert once.any()
+    assert (faces_within(surface(PLATE), on_top(PLATE, [places[k] for k in again]) * MM) == once).all()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -158,11 +160,49 @@ def test_a_ball_between_floor_and_ceiling_and_on_a_wall_shares_its_load() -> Non
     assert not_held(*turns) == ("ball ry",), "a ball turns freely"
 
 
-def test_a_turn_at_which_two_coordinates_are_one_is_found() -> None:
+@pytest.mark.parametrize("count", [3, 11, 12, 30])
+def test_a_row_of_bodies_that_slides_as_one_is_held_by_nothing(count: int) -> None:
+    """Each presses into the next along x and all are free along it: however many, all of them are named."""
+    fit = 0.2e-3
+    pair = bed(slab(), ball(16), 1e-3)
+    along = RigidTransform.from_rotation(Rotation.from_rotvec([0.0, 0.0, -0.5 * np.pi]))
+    names = [f"b{k}" for k in range(count)]
+    poses = {name: shifted(k * (R - fit), 0.0) * along for k, name in enumerate(names)}
+    bodies = {name: only((0.0, 0.0, 0.0), "tx") for name in names}
+    bodies[names[0]], bodies[names[-1]] = only((400.0, 0.0, 0.0), "tx"), only((-400.0, 0.0, 0.0), "tx")
+    pairs = [pressed(one, other, pair) for one, other in pairwise(names)]
+    row = Assembly(pairs, poses, {name: RigidTransform.identity() for name in names}, bodies)
+    total = row.at(row.recorded)
+    assert all(len(state.pressed) for state in total.states)
+    assert row.loose(total) == tuple(f"{name} tx" for name in names)
+    held = dict(bodies) | {names[0]: FreeBody(np.zeros(3), np.zeros(6, bool), np.zeros(3), np.zeros(6))}
+    fast = Assembly(pairs, poses, row.axes, held)
+    assert fast.loose(fast.at(fast.recorded)) == ()
+
+
+def over(rx: float, *which: str) -> Assembly:
+    """A body in a frame that lies askew, turned by this about its x; these coordinates settle."""
     base = askew(4)
-    body = {"ball": only((0.0, -1.0, 0.0), "ty")}
-    turned = {"ball": base * RigidTransform.from_rotation(Rotation.from_rotvec([1.5, 0.0, 0.0]))}
-    over = Assembly([], turned, {"ball": base}, body)
-    assert turned_too_far(over, over.recorded) == "ball"
-    straight = Assembly([], {"ball": base}, {"ball": base}, body)
+    turned = {"ball": base * RigidTransform.from_rotation(Rotation.from_rotvec([rx, 0.0, 0.0]))}
+    return Assembly([], turned, {"ball": base}, {"ball": only((0.0, -1.0, 0.0), "ty", *which)})
+
+
+@pytest.mark.parametrize("which", [("ry", "rz"), ("rx",), ("ry", "rx", "rz")])
+def test_a_turn_at_which_two_coordinates_are_one_is_found(which: tuple[str, ...]) -> None:
+    assert turned_too_far(over(1.5, *which), over(1.5, *which).recorded) == "ball"
+    straight = over(0.0, *which)
     assert turned_too_far(straight, straight.recorded) is None
+    far = np.where(np.isin(COORDINATES, "rx"), 1.5, straight.recorded)
+    assert turned_too_far(straight, far) == ("ball" if len(which) > 1 else None), "its axis is where it was"
+
+
+@pytest.mark.parametrize("which", [(), ("ry",), ("rz",)])
+@pytest.mark.parametrize("turn", [1.5, 0.5 * np.pi])
+def test_a_steep_body_that_does_not_settle_about_two_axes_is_none(which: tuple[str, ...], turn: float) -> None:
+    """A displacement does not mind; ry alone is about y of the axes, rz alone about the body's own z."""
+    steep = over(turn, *which)
+    assert turned_too_far(steep, steep.recorded) is None
+    moved = steep.recorded + 0.2 * steep.free
+    was, now = (steep.axes["ball"].inv() * steep.placed(at)["ball"] for at in (steep.recorded, moved))
+    turned = np.array([0.0, 0.2, 0.0]) if "ry" in which else was.rotation.apply([0.0, 0.0, 0.2 * ("rz" in which)])
+    np.testing.assert_allclose((now.rotation * was.rotation.inv()).as_rotvec(), turned, atol=1e-9)

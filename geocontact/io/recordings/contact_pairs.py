@@ -214,6 +214,10 @@ class DescribedFree(Document):
         for name in self.springs:
             if name not in self.settles:
                 raise refusal("is held, and its spring has no effect", f"add {name} to settles", at=("springs", name))
+        for axis in "xyz":
+            if getattr(self, f"f{axis}") and f"t{axis}" not in self.settles:
+                what, remedy = f"has no effect: t{axis} is held", f"add t{axis} to settles, or leave it out"
+                raise refusal(what, remedy, at=(f"f{axis}",))
         return self
 
 

@@ -249,6 +249,7 @@ def test_a_frame_without_rest_has_no_numbers(tmp_path: Path) -> None:
             DOWN + '[free.springs]\nrx = { value = 1, unit = "N m/deg" }\n',
             "rx: is held, and its spring has no effect; add rx to settles",
         ),
+        (DOWN + 'fx = { value = 20, unit = "kN" }\n', "[[free]] 1 fx: has no effect: tx is held; add tx to settles"),
         ("", "[[free]]: no body is free"),
     ],
 )
@@ -257,6 +258,38 @@ def test_what_cannot_come_to_rest_is_refused(tmp_path: Path, free: str, said: st
         settle(on_plate(tmp_path, free))
     assert said in str(refused.value), refused.value
     assert "\n" not in str(refused.value)
+
+
+def test_a_steep_body_that_only_sinks_comes_to_rest(tmp_path: Path) -> None:
+    """A ball lies about the same at a right angle: no turn of it settles."""
+    file = on_plate(tmp_path, DOWN)
+    straight = settle(file).resting.coordinates("ball")
+    steep = (
+        (tmp_path / "ball.csv").read_text("utf-8").replace("1, 0, 0, 0", "0.7071067811865476, 0.7071067811865476, 0, 0")
+    )
+    written(tmp_path / "ball.csv", steep)
+    result = settle(file)
+    assert result.resting.converged.all()
+    np.testing.assert_allclose(result.resting.coordinates("ball")[:, 1], straight[:, 1], atol=2e-5)
+
+
+def test_a_start_pose_is_not_taken_for_a_copied_motion(tmp_path: Path) -> None:
+    """A ball that is constant over a plate is where the search begins; a body without a motion has none to copy."""
+    file = on_plate(tmp_path, DOWN)
+    for what in (gc.settle_pairs, gc.area_pairs):
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always", InputWarning)
+            what(file)
+        assert not any("keep their place" in str(one.message) for one in found)
+    for name in ("ball", "plate"):
+        turned(tmp_path, f"{name}.csv", np.array([0.0, 20.0 * (name == "ball"), 0.0]), TURN)
+    both = file.read_text("utf-8").replace(
+        f'mesh = "{PLATE.as_posix()}"', f'mesh = "{PLATE.as_posix()}"\nmotion = "plate.csv"'
+    )
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", InputWarning)
+        gc.area_pairs(described(tmp_path, both))
+    assert any("ball and plate keep their place" in str(one.message) for one in found)
 
 
 def test_pairs_without_a_layer_bear_nothing_and_it_is_said(tmp_path: Path) -> None:

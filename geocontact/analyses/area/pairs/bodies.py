@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -183,7 +183,6 @@ def _pair(
     if motion is None:
         what = f"neither {pair.moving} nor {pair.fixed} moves"
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
-    _doubt_together(o.description, pair, motion)
     with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
         bodies = read_moved(asked, lambda _: [(pair.name, motion)])
@@ -205,12 +204,19 @@ def of_pair(description: Path, name: str) -> Iterator[None]:
         raise InputError(description, place, error.what, error.remedy) from error
 
 
-def _doubt_together(file: Path, pair: DescribedPair, motion: Motion) -> None:
-    """A warning for two bodies that do not move against each other in any frame, each having poses of its own."""
-    turned = (motion.poses[:1].inv() * motion.poses).as_matrix() if len(motion) > 1 else np.zeros((0, 4, 4))
-    if len(turned) and np.allclose(turned, np.eye(4), rtol=0.0, atol=TOGETHER):
-        what = f"{pair.moving} and {pair.fixed} keep their place to each other in all {len(motion)} frames"
-        reserve(f"{file} [[pairs]] {pair.name}: {what}: is the motion of one that of the other?")
+def doubt_together(touching: TouchingBodies, file: Path, free: Collection[str] = ()) -> None:
+    """A warning for two bodies that do not move against each other in any frame, each having poses of its own.
+
+    Those of `free` are where the search for rest begins and may be constant.
+    """
+    for pair in touching.pairs:
+        both = (pair.moving, pair.fixed)
+        if any(name in free or touching.motions[name] is None for name in both) or len(pair.motion) < 2:
+            continue
+        turned = (pair.motion.poses[:1].inv() * pair.motion.poses).as_matrix()
+        if np.allclose(turned, np.eye(4), rtol=0.0, atol=TOGETHER):
+            what = f"{pair.moving} and {pair.fixed} keep their place to each other in all {len(pair.motion)} frames"
+            reserve(f"{file} [[pairs]] {pair.name}: {what}: is the motion of one that of the other?")
 
 
 def _relative(moving: Motion | None, fixed: Motion | None, time: Float[np.ndarray, " t"]) -> Motion | None:

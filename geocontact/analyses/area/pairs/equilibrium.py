@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.analyses.area.contact import PIECE, elastic_layer
-from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, doubt_together, of_pair
 from geocontact.analyses.area.pairs.bodies import read as read_touching
 from geocontact.analyses.area.pairs.options import PairsOptions, SettlePairsOptions
 from geocontact.analyses.area.pairs.totals import body_loads
@@ -102,6 +102,7 @@ def read(o: SettlePairsOptions) -> PressingBodies:
         what = "no force acts on any of the bodies: nothing presses them together"
         raise InputError(o.description, "[[free]]", what, "write fx, fy or fz of one")
     free = {one.body: _free(one) for one in touching.free}
+    doubt_together(touching, o.description, free)
     pairs = tuple(_pressed(pair, o) for pair in layered)
     return PressingBodies(
         touching, tuple(pair.name for pair in layered), pairs, free, {one.body: one.axes for one in touching.free}

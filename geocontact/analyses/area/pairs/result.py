@@ -18,7 +18,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.area.contact import MotionResult, area_table, tables_of
 from geocontact.analyses.area.motion_outputs import figure_of, page_of, pressure_figure_of
-from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, of_pair, read
+from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, doubt_together, of_pair, read
 from geocontact.analyses.area.pairs.options import PairsOptions
 from geocontact.analyses.area.pairs.show import pair_curves, thinned_page
 from geocontact.analyses.area.pairs.totals import (
@@ -148,6 +148,7 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
         reserve(
             f"{o.description}: [[free]] has no effect: bodies stay as recorded; `settle-pairs` lets them come to rest"
         )
+    doubt_together(pairs, o.description)
     for body, one, other, whole in counted_twice(pairs.pairs):
         reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)
