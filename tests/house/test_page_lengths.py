@@ -11,17 +11,17 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_300, "how-to": 26_500, "everything": 88_560}
+ALL_WORDS = {"theory, reference": 46_420, "how-to": 26_670, "everything": 88_900}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
 controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the
 plane, pairs of bodies, keys and checks of made pages; marker sets, folders, an exoskeleton and a person of one's
-own, picked landmarks, bodies at rest on several others."""
+own, picked landmarks, bodies at rest on several others, feet of a model."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
-    "how-to/cop.md": 880,
+    "how-to/cop.md": 1010,
     "how-to/elbow.md": 1350,
     "how-to/elbow_design.md": 950,
     "how-to/figures.md": 440,
@@ -70,8 +70,8 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1080,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1730,
-    "theory/centre_of_pressure.md": 590,
+    "reference/written_files.md": 1740,
+    "theory/centre_of_pressure.md": 720,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
     "theory/contact_laws.md": 1440,

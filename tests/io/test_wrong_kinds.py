@@ -466,7 +466,7 @@ mass = { value = 82, unit = "kg" }
 sex = "male"
 age = { value = 9, unit = "years" }
 height = { value = 1.36, unit = "m" }
-segments.upper_arm = { mass = { value = 0.9, unit = "kg" }, length = { value = 25, unit = "cm" } }
+segments.upper_arm = { mass = { value = 0.9, unit = "kg" }, length = { value = 30, unit = "cm" } }
 segments.head = { centre = { value = 13, unit = "cm" }, gyration = { value = 9, unit = "cm" } }
 dominant = "right"
 upper_arm = { value = 296, unit = "mm" }
