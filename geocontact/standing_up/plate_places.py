@@ -8,7 +8,7 @@ median of its loaded centre of pressure is nearest to, within limits; the order 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -58,14 +58,15 @@ class PlatePlace:
     ----------
     away
         From what it carries; not a number where nothing is known, or without load.
-    from_feet
-        From the area of both feet.
+    from_feet, from_seat
+        From the area of both feet, and from the seat.
     """
 
     name: str
     carries: Carried
     away: float
     from_feet: float
+    from_seat: float
 
     def __str__(self) -> str:
         if self.carries == "no load":
@@ -77,8 +78,20 @@ class PlatePlace:
 
 
 def plate_places(plates: Sequence[ForcePlate], body: BodySites) -> tuple[PlatePlace, ...]:
-    """Each plate and what it carries."""
-    return tuple(_place(plate, body) for plate in plates)
+    """Each plate and what it carries.
+
+    Where each foot has a plate of its own, another between the feet that is near the seat too carries the seat: the
+    ankles of somebody who sits may be under the thighs.
+    """
+    found = tuple(_place(plate, body) for plate in plates)
+    if not {"right foot", "left foot"} <= {each.carries for each in found}:
+        return found
+    return tuple(
+        replace(each, carries="seat", away=each.from_seat)
+        if each.carries == "both feet" and each.from_seat <= SEAT
+        else each
+        for each in found
+    )
 
 
 def _place(plate: ForcePlate, body: BodySites) -> PlatePlace:
@@ -86,7 +99,7 @@ def _place(plate: ForcePlate, body: BodySites) -> PlatePlace:
     heavy = (load >= max(LOADED, HEAVY * float(load.max(initial=0.0)))) & np.isfinite(centre).all(axis=1)
     heavy &= (plate.time >= body.time[0]) & (plate.time <= body.time[-1])
     if not heavy.any():
-        return PlatePlace(plate.name, "no load", float("nan"), float("nan"))
+        return PlatePlace(plate.name, "no load", float("nan"), float("nan"), float("nan"))
     at, seen = plate.time[heavy], centre[heavy][:, [0, 2]]
     lines = {side: _foot(body, side, at) for side in ("right", "left")}
     off = {side: float(np.median(_from_line(seen, *line))) for side, line in lines.items()}
@@ -100,12 +113,12 @@ def _place(plate: ForcePlate, body: BodySites) -> PlatePlace:
     seat = float(np.median(_from_line(seen, hips - REARWARD * (knees - hips) / long, knees)))
     nearest: Side = "right" if off["right"] <= off["left"] else "left"
     if off[nearest] <= BESIDE and off[nearest] < 0.5 * max(off.values()):
-        return PlatePlace(plate.name, "right foot" if nearest == "right" else "left foot", off[nearest], both)
+        return PlatePlace(plate.name, "right foot" if nearest == "right" else "left foot", off[nearest], both, seat)
     if both <= BESIDE:
-        return PlatePlace(plate.name, "both feet", both, both)
+        return PlatePlace(plate.name, "both feet", both, both, seat)
     if seat <= SEAT:
-        return PlatePlace(plate.name, "seat", seat, both)
-    return PlatePlace(plate.name, "nothing known", float("nan"), both)
+        return PlatePlace(plate.name, "seat", seat, both, seat)
+    return PlatePlace(plate.name, "nothing known", float("nan"), both, seat)
 
 
 def _seen_at(body: BodySites, places: Places, at: Float[np.ndarray, " s"]) -> Float[np.ndarray, "s 2"]:

@@ -181,13 +181,10 @@ class ShapeOptions(Options):
 
     def names_in_region(self) -> set[str]:
         """Those of `NEEDS` that the region speaks of; a file of face numbers speaks of none."""
-        from geocontact.analyses.frame.quantities import named_file  # numpy and friends: not for --help
+        from geocontact.analyses.frame.landmarks import region_kind  # numpy and friends: not for --help
+        from geocontact.analyses.frame.quantities import named_file
 
-        if (
-            self.region is None
-            or self.region.startswith(("polygon:", "sphere:"))
-            or named_file(self.region) is not None
-        ):
+        if self.region is None or region_kind(self.region)[0] or named_file(self.region) is not None:
             return set()
         return {name for name in NEEDS if name in self.region}
 

@@ -313,7 +313,7 @@ def spoilt(folder: Path, old: str, new: str) -> Path:
         ('sex = "male"', 'sex = "m"', "[persons.P1] sex: 'm' is none; write female or male"),
         ('dominant = "right"', 'dominant = "both"', "[persons.P1] dominant: 'both' is none; write right or left"),
         ('mass = { value = 82.0, unit = "kg" }', "", "[persons.P1]: no mass; add it"),
-        ("value = 82.0", "value = 820.0", "820 kg cannot be the mass of a person: that is 20 to 300 kg"),
+        ("value = 82.0", "value = 820.0", "820 kg cannot be the mass of a person: that is 10 to 300 kg"),
         ('unit = "N"', 'unit = "kg"', "'kg' is not a unit of it"),
         ('person = "P1"', 'person = "P9"', "no [persons.P9]; there are P1"),
         ('task = "T1"', 'task = "T9"', "no [tasks.T9]; there are T1, T2"),
