@@ -326,3 +326,22 @@ def test_a_centre_is_one_landmark(tmp_path: Path) -> None:
     file = saved(tmp_path / "pole.csv", SPHERE, on_sphere())
     with refusal("one landmark is needed here, not 5"):
         fit(SPHERE, shape="sphere", region="radial>10", centre=str(file))
+
+
+@pytest.mark.parametrize("names", ["", ":A", ":A:B"])
+@pytest.mark.parametrize("option", ["axis", "centre"])
+def test_a_file_that_is_not_there_is_said(tmp_path: Path, option: str, names: str) -> None:
+    with refusal("there is no such file"):
+        fit(SPHERE, shape="sphere", region="radial>10", **{option: f"{tmp_path / 'nofile.csv'}{names}"})
+
+
+def test_a_sheet_of_landmarks_is_read_as_well(tmp_path: Path) -> None:
+    points = trimesh.load(SPHERE, process=False).vertices[[3, 40]]
+    rows = [[name, *point] for name, point in zip("AB", points, strict=True)]
+    file = tmp_path / "points.xlsx"
+    pd.DataFrame(rows, columns=["id", "x [mm]", "y [mm]", "z [mm]"]).to_excel(file, index=False)
+    ball = gc.read_surface(SPHERE, "mm")
+    for text in (str(file), f"{file}:A:B"):
+        axis = typed_axis("`axis`", text, ball, "mm")
+        np.testing.assert_allclose(axis.point, 1e-3 * points[0], rtol=1e-12)
+    np.testing.assert_allclose(typed_centre("`centre`", f"{file}:B", ball, "mm"), 1e-3 * points[1], rtol=1e-12)

@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_420, "how-to": 26_670, "everything": 88_900}
+ALL_WORDS = {"theory, reference": 46_440, "how-to": 26_670, "everything": 88_940}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
@@ -70,7 +70,7 @@ LIMITS = {
     "reference/real_implants.md": 550,
     "reference/speed.md": 1080,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1740,
+    "reference/written_files.md": 1750,
     "theory/centre_of_pressure.md": 720,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -84,7 +84,7 @@ LIMITS = {
     "theory/mat_draping.md": 1070,
     "theory/multibody.md": 690,
     "theory/planar_joint.md": 500,
-    "reference/descriptions.md": 4200,
+    "reference/descriptions.md": 4240,
     "theory/prosthesis_both_sides.md": 880,
     "theory/prosthesis_calibration.md": 1050,
     "theory/prosthesis_compare.md": 790,

@@ -366,7 +366,7 @@ def typed_centre(option: str, text: str, surface: Surface, unit: str) -> Vector:
 
 def _six_numbers(given: Picked) -> bool:
     """Whether a file holds the numbers of an axis and not a table of landmarks, which has letters."""
-    if given.names:
+    if given.names or given.file.suffix.lower() != ".csv":
         return False
     text = read_bytes(given.file, places.LONGEST_AXIS, "give six numbers, or name two landmarks")
     return not any(chr(byte).isalpha() and byte not in b"eE" for byte in text.removeprefix(BYTE_ORDER_MARK))

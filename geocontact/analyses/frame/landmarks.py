@@ -19,6 +19,8 @@ OFF = 1e-3
 """Share of the diagonal of the mesh's box by which a landmark may be off its surface."""
 POLYGON, SPHERE = "polygon:", "sphere:"
 """Words before the file of a region."""
+TABLES = (".csv", ".xlsx")
+"""Files of landmarks."""
 REGION = "write polygon:FILE.csv, or sphere:FILE.csv:NAME:12mm"
 
 
@@ -31,12 +33,16 @@ class Picked:
 
 
 def picked(text: str) -> Picked | None:
-    """The file that a text names, with names of landmarks; None where it names no .csv file."""
+    """The file that a text names, with names of landmarks; None where it names no table, InputError for a missing one."""
     parts = text.split(":")
     for count in range(len(parts), 0, -1):  # a file name may hold a colon
         file = named_file(":".join(parts[:count]))
         if file is not None:
-            return Picked(file, tuple(parts[count:])) if file.suffix.lower() == ".csv" else None
+            return Picked(file, tuple(parts[count:])) if file.suffix.lower() in TABLES else None
+    for count in range(1, len(parts) + 1):
+        name = ":".join(parts[:count])
+        if name.lower().endswith(TABLES):
+            raise InputError(name, "", "there is no such file", "check the folder and the spelling")
     return None
 
 

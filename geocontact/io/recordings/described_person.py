@@ -37,7 +37,7 @@ class OwnSegment(Document):
     length
         Between de Leva's ends.
     centre
-        Mass centre from the proximal end.
+        Mass centre from the proximal end; a study of standing up has it from the lower joint.
     gyration
         Radius of gyration across the long axis.
     """
