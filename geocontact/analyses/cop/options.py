@@ -47,8 +47,8 @@ class CopOptions(Options):
         Table of the spheres in the foot's frame: px [m], py [m], pz [m], radius [m], zone; or an OpenSim model (.osim)
         with contact spheres on `body`.
     motion
-        Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`;
-        without these they go through all joints of the model that `spheres` is.
+        Poses of the foot in the ground's frame (.csv), or coordinates (.mot .sto) with `osim` and `joint`, or `map`.
+        Without these they go through all joints of the model that `spheres` is.
 
     The foot
     --------

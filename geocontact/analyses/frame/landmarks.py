@@ -33,7 +33,7 @@ class Picked:
 
 
 def picked(text: str) -> Picked | None:
-    """The file that a text names, with names of landmarks; None where it names no table, InputError for a missing one."""
+    """The file that a text names, and names of landmarks; None where it names no table, InputError for none there."""
     parts = text.split(":")
     for count in range(len(parts), 0, -1):  # a file name may hold a colon
         file = named_file(":".join(parts[:count]))
