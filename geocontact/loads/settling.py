@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -71,6 +71,7 @@ LEAST = 1e-9
 """Share of the largest curvature: smaller ones are taken for this."""
 
 
+@runtime_checkable
 class Energy(Protocol):
     """Energy at some coordinates [m, rad] with its first and second derivative: slope 0 is equilibrium."""
 

@@ -306,7 +306,7 @@ READ |= {
             "--model",
             f"{OPENCAP}LaiArnoldModified2017_contacts.osim",
         ),
-        (BETA,),
+        (BETA, "the height of a person, which mostly is 0.8 to 1.97 m"),  # 2.04 m by the model's legs
     ),
     **{
         name: (("markers", f"{ARM}{name}.mot", "--model", f"{ARM}TSM_subject_CMC_noWeight.osim"), ())

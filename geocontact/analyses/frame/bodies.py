@@ -176,6 +176,7 @@ def read_surface(
     return Surface.of(read_mesh(path, unit, merge_tolerance=merge_tolerance), assume_closed)
 
 
+@runtime_checkable
 class UnitsOfBodies(Protocol):
     """Options of two bodies whose meshes may be in two units."""
 
