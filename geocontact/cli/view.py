@@ -44,7 +44,7 @@ def view(
 
     if is_surface(result):
         page = _of_surface(result, window, unit, out, landmarks)
-    elif unit is not None or out is not None or landmarks is not None:
+    elif result.exists() and (unit is not None or out is not None or landmarks is not None):
         name = "--unit" if unit is not None else "--out" if out is not None else "--landmarks"
         raise InputError("", name, f"is for a mesh, and {result} is none", "leave it out")
     elif window:
@@ -89,7 +89,8 @@ def page_of(result: Path) -> Path:
     if result.is_file() and result.suffix.lower() in (".html", ".htm"):
         return result
     if not result.is_dir():
-        raise InputError(result, "", "is neither a folder of results nor a page", "name the --out of an analysis")
+        what = "is neither a folder of results nor a page" if result.exists() else "there is no such file or folder"
+        raise InputError(result, "", what, "name the --out of an analysis, or a mesh with its --unit")
     if (result / PAGE).is_file():
         return result / PAGE
     inside = sorted(folder for folder in result.iterdir() if (folder / PAGE).is_file())

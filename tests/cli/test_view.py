@@ -107,6 +107,7 @@ REFUSED_SURFACES = {
     "something else there": ([str(SPHERE), "--unit", "mm", "--out", "mine.html"], "is no page of a surface"),
     "no folder": ([str(SPHERE), "--unit", "mm", "--out", "no/where.html"], "its folder is not there"),
     "a damaged mesh": (["bad.stl", "--unit", "mm"], "bad.stl"),
+    "a mesh that is not there": (["no.stl", "--unit", "mm"], "no.stl: there is no such file or folder"),
     "a unit for a result": (["result", "--unit", "mm"], "--unit: is for a mesh"),
     "landmarks for a result": (["result", "--landmarks", "l.csv"], "--landmarks: is for a mesh"),
     "landmarks of another unit": ([str(SPHERE), "--unit", "mm", "--landmarks", "cm.csv"], "was picked in cm"),
