@@ -122,13 +122,13 @@ def looked_at(
     note("trials", {"all": len(trials), "done": len(done)})
     say_how_many(plan.evaluations)
     _clean(planned, plan, store, o)
-    told = [
+    entries = [
         (one.called(step=bool(earlier)), store.told(one.address))
         for one in (*earlier, *trials)
         if one.outcome.state == DONE
     ]
-    judge_several([(name, each.get("fit", "")) for name, each in told], LEAVE_OUT)
-    reserve_of_several([(name, each["warnings"]) for name, each in told])
+    judge_several([(name, each.get("fit", "")) for name, each in entries], LEAVE_OUT)
+    reserve_of_several([(name, each["warnings"]) for name, each in entries])
     kept = [(one.trial, one.address) for one in done]
     curves = curves_of(planned.file, kept, store, planned.cutting) if kept else ()
     surface = surface_values(planned.file, kept, store)

@@ -254,7 +254,7 @@ def _own_places(model: Multibody) -> dict[Where, Marker]:
     found: dict[Where, Marker] = {}
     unclear = {label for other in known[1:] for label in _tie(known[0], other)}
     for label, where in known[0].found.items():
-        if label not in unclear and PLACES[where[0]].at is not None:  # a cluster's markers cannot be told apart
+        if label not in unclear and PLACES[where[0]].at is not None:  # markers of a cluster have no place each
             found.setdefault(where, by[label])
     return found
 

@@ -287,18 +287,18 @@ def _session(file: Path) -> FolderPerson | None:
     if not file.is_file():
         return None
     lines = read_text_bytes(file, LARGEST_TEXT).decode("utf-8-sig", errors="replace").splitlines()
-    told = dict(line.split(":", 1) for line in lines if re.match(r"\w+:", line))
-    mass, height = (_size(file, key, told.get(key, "").strip()) for key in ("mass_kg", "height_m"))
-    return FolderPerson(file, mass, height, told.get("openSimModel", "").strip().strip("'\""))
+    given = dict(line.split(":", 1) for line in lines if re.match(r"\w+:", line))
+    mass, height = (_size(file, key, given.get(key, "").strip()) for key in ("mass_kg", "height_m"))
+    return FolderPerson(file, mass, height, given.get("openSimModel", "").strip().strip("'\""))
 
 
 def _subject(file: Path) -> FolderPerson:
     try:
-        told = read_json(file)
+        given = read_json(file)
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", "is not JSON", "download the subject again") from error
-    told = told if isinstance(told, dict) else {}
-    return FolderPerson(file, _size(file, "massKg", told.get("massKg")), _size(file, "heightM", told.get("heightM")))
+    given = given if isinstance(given, dict) else {}
+    return FolderPerson(file, _size(file, "massKg", given.get("massKg")), _size(file, "heightM", given.get("heightM")))
 
 
 def _participant(file: Path, config: dict[str, Any]) -> FolderPerson | None:

@@ -58,7 +58,7 @@ def doubt_phase(one: CalibratedPhase) -> None:
 
 def _doubt_verdicts(one: CalibratedPhase) -> None:
     """Parameters whose values come of something else than the trials."""
-    at_bound, believed, apart, untested = (
+    at_bound, by_prior, apart, untested = (
         ", ".join(n.name for n in one.numbers.numbers if n.verdict == verdict)
         for verdict in ("on its bound", "prior-dominated", "not separable", "untested")
     )
@@ -67,8 +67,8 @@ def _doubt_verdicts(one: CalibratedPhase) -> None:
     if apart:
         words = f"phase {one.name} has another minimum that costs little more and has other values"
         reserve(f"{words}: not separable, with intervals that cover both: {apart}")
-    if believed:
-        words = f"these trials add little to the prior of {believed}"
+    if by_prior:
+        words = f"these trials add little to the prior of {by_prior}"
         reserve(f"{words}: their values come mostly from the prior")
     if untested:
         words = "no force of the ground was recorded: coordinates and their stated noise alone say"
