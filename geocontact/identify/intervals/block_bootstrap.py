@@ -13,13 +13,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.identify.noise.autocorrelation import Autocorrelation
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise
 
 CORRELATIONS = 3.0  # correlation times in a block: exp(-3) is left of the correlation
 FEWEST = 4  # blocks
+AT_ONCE = 4_000_000  # samples of replicates in memory
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,42 +61,52 @@ def block_bootstrap(
     Parameters
     ----------
     refit
-        Estimates from each row of synthetic measurements.
+        Estimates from each row of synthetic measurements, of each row by itself: long recordings come in parts.
     """
     rng = np.random.default_rng(seed)
     step = float(np.median(np.diff(time)))
     n = len(time)
     length = int(np.clip(np.ceil(CORRELATIONS * memory.typical / step), 1, max(n // FEWEST, 1)))
     drawn = rng.choice(len(memory.tau), count, p=memory.weight)
-    noise = np.empty((count, n))
-    for k in np.unique(drawn):
-        own = np.flatnonzero(drawn == k)
-        noise[own] = _blackened(time, residual, float(memory.tau[k]), length, len(own), rng)
     blocks = -(-n // length)
     wider = np.sqrt(n / memory.freedom * blocks / max(blocks - 1, 1))
-    values = refit(predicted + wider * noise)
+    found: list[Float[np.ndarray, "b p"]] = []
+    order: list[Int[np.ndarray, " b"]] = []
+    for k in np.unique(drawn):
+        own, tau = np.flatnonzero(drawn == k), float(memory.tau[k])
+        innovations = AutoregressiveNoise(np.ones(1), np.array([tau])).whitened(time, residual[:, None, None])[:, 0]
+        keep = np.exp(-np.diff(time) / tau)
+        for part in np.array_split(own, min(-(-len(own) * n // AT_ONCE), len(own))):
+            found.append(refit(predicted + wider * _blackened(innovations, keep, length, len(part), rng)))
+            order.append(part)
+    values = np.concatenate(found)[np.argsort(np.concatenate(order))]
     tails = [50.0 * (1.0 - level), 50.0 * (1.0 + level)]
     lower, upper = np.percentile(values, tails, axis=0)
     return Replicates(values, lower, upper, length * step, blocks)
 
 
 def _blackened(
-    time: Float[np.ndarray, " n"],
-    residual: Float[np.ndarray, " n"],
-    tau: float,
+    innovations: Float[np.ndarray, " n"],
+    keep: Float[np.ndarray, " n-1"],
     length: int,
     count: int,
     rng: np.random.Generator,
 ) -> Float[np.ndarray, "b n"]:
-    """Resampled residuals: blocks of the innovations with random places and signs, given the memory back."""
-    n = len(time)
-    innovations = AutoregressiveNoise(np.ones(1), np.array([tau])).whitened(time, residual[:, None, None])[:, 0]
+    """Resampled residuals: blocks of the innovations with random places and signs, given the memory back.
+
+    Parameters
+    ----------
+    keep
+        What is kept of a sample in the next one.
+    """
+    n = len(innovations)
     blocks = -(-n // length)
     first = rng.integers(0, n, (count, blocks))
     places = ((first[:, :, None] + np.arange(length)) % n).reshape(count, -1)[:, :n]
     signs = rng.choice([-1.0, 1.0], (count, blocks)).repeat(length, axis=1)[:, :n]
-    noise = innovations[places] * signs
-    keep = np.exp(-np.diff(time) / tau)
+    noise = np.ascontiguousarray((innovations[places] * signs).T)  # a row per sample: steps through memory in order
+    new = np.sqrt(1.0 - keep**2)
     for k in range(1, n):
-        noise[:, k] = keep[k - 1] * noise[:, k - 1] + np.sqrt(1.0 - keep[k - 1] ** 2) * noise[:, k]
-    return np.asarray(noise)
+        noise[k] *= new[k - 1]
+        noise[k] += keep[k - 1] * noise[k - 1]
+    return np.asarray(noise.T)

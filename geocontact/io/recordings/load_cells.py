@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import parts, release, room
-from geocontact.io.text.side_table import LARGEST_TABLE, read_side_table
+from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.tables import CELLS, TextTable, listed, read_table
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import DIMENSIONS, si_unit
@@ -51,6 +51,7 @@ def read_cycle_table(path: Path) -> tuple[CycleRow, ...]:
     return rows
 
 
+LARGEST_REGRESSION = 8_000_000  # bytes
 FORCES = DIMENSIONS["N"]
 STRONGEST = 20e3  # N; no knee bears this much
 _MATRIX = "write medial = [...] and cells = [...], or a .csv with the columns cell, medial [-], lateral [-]"
@@ -162,7 +163,7 @@ def read_regression(path: Path) -> CellRegression:
 
 def _from_toml(path: Path) -> RegressionFile:
     try:
-        return RegressionFile.model_validate(toml_of(path, LARGEST_TABLE))
+        return RegressionFile.model_validate(toml_of(path, LARGEST_REGRESSION))
     except ValidationError as error:
         first = error.errors()[0]
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
