@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 from dataclasses import dataclass
 from os import PathLike, fspath
 
@@ -10,6 +11,14 @@ OF_THE_MACHINE = frozenset(
     {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.EIO, errno.ENOMEM, errno.ESTALE}
 )
 """Errors of files that no other input mends: an `OSError` of them stays one, and a command ends with 1."""
+
+_NO_MEMORY = (os.strerror(errno.ENOMEM), "failed to map segment")
+"""What the loader of shared libraries writes into an `ImportError` where memory is short (glibc)."""
+
+
+def memory_is_short(error: ImportError) -> bool:
+    """Whether a library that is installed could not be loaded for want of memory, which no other input mends."""
+    return not isinstance(error, ModuleNotFoundError) and any(each in str(error) for each in _NO_MEMORY)
 
 
 @dataclass

@@ -293,6 +293,20 @@ def test_vtp_without_vtk_is_one_line_with_the_remedy(tmp_path, monkeypatch):
         read_mesh(path, "mm")
 
 
+def test_a_library_that_finds_no_memory_is_no_fault_of_the_file(tmp_path, monkeypatch):
+    class Loader:
+        def find_spec(self, name, path=None, target=None):
+            if name == "vtkmodules.vtkIOXML":
+                raise ImportError("libvtkIOXML.so: failed to map segment from shared object")
+
+    monkeypatch.delitem(sys.modules, "vtkmodules.vtkIOXML", raising=False)
+    monkeypatch.setattr(sys, "meta_path", [Loader(), *sys.meta_path])
+    path = tmp_path / "bone.vtp"
+    path.write_bytes(vtp_of(TWO_FACES))
+    with pytest.raises(ImportError, match="failed to map segment"):
+        read_mesh(path, "mm")
+
+
 @pytest.mark.parametrize(
     ("extension", "options", "parser"),
     [

@@ -25,7 +25,7 @@ from defusedxml.common import DefusedXmlException  # type: ignore[import-untyped
 from defusedxml.ElementTree import fromstring  # type: ignore[import-untyped]
 from jaxtyping import Float, Int
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, memory_is_short
 from geocontact.io.mesh import mesh_checks
 from geocontact.io.mesh.mesh_checks import triangles
 from geocontact.io.text.file_preflight import count_of_numbers, not_a, remedy
@@ -342,6 +342,8 @@ def _parsed(
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
     except ImportError as error:
+        if memory_is_short(error):
+            raise
         what = f".vtp is read by VTK, which comes with pyvista and cannot be used here ({error})"
         raise InputError(file, "", what, "pip install 'geocontact[view]', or convert it to .stl or .ply") from error
     reader, complaints = vtkXMLPolyDataReader(), []

@@ -42,7 +42,7 @@ def sheet_text(path: str | PathLike[str]) -> str:
     file = fspath(path)
     try:
         import openpyxl  # noqa: F401  pandas reads through it
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         remedy = "pip install openpyxl, or save the sheet as .csv"
         raise InputError(file, "", "reading .xlsx needs openpyxl", remedy) from error
     regular_file(path, LARGEST_SHEET)

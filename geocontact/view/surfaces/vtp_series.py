@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.data.errors import InputError
+from geocontact.data.errors import InputError, memory_is_short
 from geocontact.view.surfaces.child import INSTALL
 from geocontact.view.surfaces.scene import ContactSeries
 
@@ -198,6 +198,8 @@ def require_pyvista() -> None:
     try:
         import pyvista  # noqa: F401
     except ImportError as error:
+        if memory_is_short(error):
+            raise
         raise InputError("", "VTP export", f"pyvista cannot be imported ({error})", INSTALL) from error
 
 
