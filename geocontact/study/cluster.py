@@ -30,6 +30,9 @@ from geocontact.study.limits import TRIES, Count, Size, TrialLimits, bytes_of, s
 WORD = re.compile(r"[\w.@:+-]{1,80}")
 WALLTIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
 ANSWERS = 30.0  # s; for the queue to say what is in it
+SILENT = 600.0  # s; after which a queue that says nothing is taken as one without jobs of the study
+TAKES = 120.0  # s; for the queue to take a job
+LATE = "Exit code: 124"  # what Dask says of a program that `timeout` ended
 LOGS = "jobs"
 """Sub-folder for what jobs print."""
 KEYS = ".dask-jobqueue.worker."
@@ -226,6 +229,7 @@ class Jobs:
         self._options = job_options(system, asked, limits, self._size, folder)
         self.missing = 1
         self.refused = ""
+        self._answered = time.monotonic()
 
     @contextmanager
     def started(self) -> Iterator[Any]:
@@ -280,14 +284,18 @@ class Jobs:
         return min(self._asked.jobs, self.missing) * self._size.processes
 
     def queued(self, cluster: Any) -> bool:
-        """Whether the queue lists one of the jobs as one that runs or may still run."""
+        """Whether the queue lists one of the jobs as one that runs or may still run.
+
+        Where it does not answer jobs may be there, but not for ever: after 10 min the study goes on without them.
+        """
         ids = {str(job.job_id) for job in list(cluster.workers.values()) if job.job_id is not None}
         try:
             said = subprocess.run(
                 self._system.lists, capture_output=True, text=True, timeout=ANSWERS, check=False
             ).stdout
-        except (OSError, subprocess.TimeoutExpired):  # it does not answer: nothing is known, and jobs may be there
-            return bool(ids)
+        except (OSError, subprocess.TimeoutExpired):  # it does not answer
+            return bool(ids) and time.monotonic() - self._answered < SILENT
+        self._answered = time.monotonic()
         return bool(ids & self._system.alive(said))
 
 
@@ -298,11 +306,15 @@ def _noting(jobs: Jobs, base: Any) -> type:
     class Noting(base):  # type: ignore[misc]
         """A job."""
 
+        if shutil.which("timeout") is not None:  # of GNU: Dask waits for ever
+            submit_command = f"timeout {TAKES:g} {base.submit_command} "  # which Dask splits, or gives to a shell
+
         async def start(self) -> None:
             try:
                 await super().start()
             except (RuntimeError, ValueError, OSError) as error:
-                jobs.refused = _said(str(error))
+                late = f"{base.submit_command} has not answered for {TAKES:g} s"
+                jobs.refused = late if LATE in str(error) else _said(str(error))
                 self.status = Status.failed  # else Dask, when it closes, takes it as one that is being started
                 raise
 

@@ -291,6 +291,37 @@ def test_a_study_does_not_wait_for_jobs_that_are_listed_and_dead(
             assert own.queued(SimpleNamespace(workers=cluster)) is expected, state
 
 
+def test_a_queue_that_says_nothing_is_not_waited_for_longer_than_ten_minutes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def silent(*_: object, **__: object) -> None:
+        raise subprocess.TimeoutExpired("squeue", 30.0)
+
+    own, cluster = jobs("slurm", tmp_path, TrialLimits(None, 2 * GB)), {"0": SimpleNamespace(job_id="4711")}
+    answers = subprocess.run
+    monkeypatch.setattr(subprocess, "run", silent)
+    now = time.monotonic()
+    for after, expected in ((0.0, True), (590.0, True), (610.0, False)):
+        monkeypatch.setattr(time, "monotonic", lambda after=after: now + after)
+        assert own.queued(SimpleNamespace(workers=cluster)) is expected, after
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: SimpleNamespace(stdout="4711 R\n"))
+    assert own.queued(SimpleNamespace(workers=cluster))
+    monkeypatch.setattr(subprocess, "run", silent)
+    assert own.queued(SimpleNamespace(workers=cluster))  # it has answered a moment ago
+    monkeypatch.setattr(subprocess, "run", answers)
+
+
+@posix
+def test_a_queue_that_never_takes_a_job_ends_the_study_with_its_name(
+    tmp_path: Path, stand_ins: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (stand_ins / "sbatch").write_text("#!/bin/bash\nexec sleep 60\n", encoding="utf-8")
+    monkeypatch.setattr("geocontact.study.cluster.TAKES", 1.0)
+    file = study(tmp_path, {"A": "1"}, *CLUSTER)
+    found = call("cohort", file, "--run-simulator", "--scheduler", "slurm", "--out", tmp_path / "out")
+    assert found.code == 2 and "no job was taken: sbatch has not answered for 1 s" in found.err
+
+
 @pytest.mark.parametrize("key", ["queue", "account", "walltime"])
 @pytest.mark.parametrize("text", ["a\nrm -rf ~", "$(rm)", "a; rm", "a b", "`rm`", '"', ""])
 def test_no_text_of_a_description_reaches_a_shell(tmp_path: Path, key: str, text: str) -> None:
