@@ -186,7 +186,7 @@ COMMANDS: dict[str, tuple[Callable[[Path, int], list[str]], tuple[int, ...]]] = 
     "ik": (ik, (300, 1_000, 3_000, 10_000)),
     "id": (inverse_dynamics, (1_000, 4_000, 10_000, 40_000)),
     "pairs": (more.pairs, (11, 31, 101, 303)),
-    "settle-pairs": (more.settle_pairs, (3, 6, 12, 24)),
+    "settle-pairs": (more.settle_pairs, (3, 12, 48, 192)),
     "knee settle": (more.knee_settle, (3, 11, 31, 101)),
     "modulus": (more.modulus, (100, 1_000, 10_000, 100_000)),
     "scale": (more.scale, (100, 1_000, 10_000, 40_000)),
