@@ -435,7 +435,7 @@ def _table(file: Path) -> tuple[list[str], np.ndarray]:
 def orientation_kinematics(
     model_file: Path, calibration: Path, recording: Path, base: str, axis: str, turn: Sequence[float], out: Path
 ) -> tuple[list[str], np.ndarray]:
-    """Names and values [deg, m] of OpenSense: IMUPlacer on a calibration, its tool of inverse kinematics on a recording."""
+    """Names and values [deg, m] of OpenSense: IMUPlacer on a calibration, then its kinematics of a recording."""
     import opensim
 
     opensim.Logger.setLevelString("Off")

@@ -10,7 +10,9 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import RigidTransform, Rotation
 
 import geocontact as gc
+from geocontact.analyses.motion.folder_inputs import folder_inputs
 from geocontact.data.errors import InputError
+from geocontact.io.text.tables import read_table
 from tests import opensim_oracle
 from tests.cli.calls import MESHES, call, done
 from tests.elsewhere import Elsewhere
@@ -87,7 +89,7 @@ def poses(tmp_path: Path) -> tuple[Path, Path]:
     walk = {"worldbody": RigidTransform.from_translation(np.zeros((60, 3))), **segments(swing())}
     return (
         write_theia(tmp_path / "walk.c3d", walk),
-        write_theia(tmp_path / "standing.c3d", segments(STANDING, PLACE)),
+        write_theia(tmp_path / "static.c3d", segments(STANDING, PLACE)),
     )
 
 
@@ -222,8 +224,16 @@ def test_a_folder_of_poses_is_read(poses: tuple[Path, Path], tmp_path: Path) -> 
     walk, _ = poses
     refused = call("scale", walk, "--model", LEG, "--mass", "23", "--out", tmp_path / "no")
     assert refused.code == 2 and "ROTATION:LABELS: holds poses of segments" in refused.err, refused.err
-    ours = done(call("ik", tmp_path, "--trial", "walk", "--model", LEG, "--axes", LABORATORY, "--out", tmp_path / "o"))
-    assert ours.code == 0 and (tmp_path / "o/segments.csv").exists()
+    given = ("--model", LEG, "--axes", LABORATORY, "--heading", "pelvis=-z")
+    ours = done(call("ik", tmp_path, *given, "--out", tmp_path / "o", folder=tmp_path / "o"))
+    q = read_table(tmp_path / "o" / "ik.mot").column("knee")
+    assert ours.code == 0 and np.abs(q - np.degrees(swing()[:, 9])).max() < 1e-4
+    parts = {row["part"]: row["file"] for row in ours.record()["folder"]["parts"]}
+    assert parts["calibration"] == "static.c3d" and (tmp_path / "o/segments.csv").exists()
+    write_theia(tmp_path / "cal2.c3d", segments(STANDING))
+    (one,) = folder_inputs("ik", tmp_path, typed=frozenset({"model"}))
+    assert "cal2, static are static: say with `calibration`" in one.warnings[0]
+    assert "calibration" not in dict(one.options)
 
 
 def test_sensors_give_what_opensense_finds(opensim: Elsewhere, tmp_path: Path) -> None:

@@ -277,6 +277,8 @@ def _options(
             warnings += _of_mass(folder, model)
     if command == "scale" and "mass" not in typed and folder.person is not None and folder.person.mass is not None:
         found["mass"] = repr(folder.person.mass)
+    if command == "ik" and "calibration" not in typed:
+        warnings += _of_the_calibration(folder, trial, found)
     if command == PLANAR:
         warnings += _of_the_plane(folder, trial, typed, found)
     if command == "id" and not {"loads", "plates"} & typed:
@@ -286,6 +288,18 @@ def _options(
         else:
             warnings.append(f"{folder.kind}: no ground reaction belongs to {trial.name}: nothing but gravity acts")
     return found, warnings
+
+
+def _of_the_calibration(folder: ToolFolder, trial: FolderTrial, found: dict[str, str]) -> list[str]:
+    """Puts the static trial, by its name, into `found` where a trial holds segments; a warning where there are more."""
+    if trial.markers is None or not holds_segments(trial.markers):
+        return []
+    static = [t for t in folder.trials if t.static and t != trial and t.markers and holds_segments(t.markers)]
+    if len(static) > 1:
+        return [f"{listed(tuple(t.name for t in static))} are static: say with `calibration` where the person stands"]
+    if static:
+        found["calibration"] = str(static[0].markers)
+    return []
 
 
 def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str], found: dict[str, str]) -> list[str]:
@@ -356,6 +370,8 @@ def _parts(
     if "model" in options:
         fitted = folder.kind == ADDBIOMECHANICS and command != "scale"
         rows.append(part("model", options["model"], note="of the last step of the fit" if fitted else ""))
+    if "calibration" in options:
+        rows.append(part("calibration", options["calibration"]))
     if "plates" in options and Path(options["plates"]).is_relative_to(folder.root):
         rows.append(part("plates", options["plates"], trial.name))
     if "loads" in options:
