@@ -201,7 +201,14 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
         (("scale", root), "holds no generic model to scale; name a generic model with --model"),
         (("ik", leg / "walk.trc", "--trial", "a"), "--trial: has no effect without a folder"),
         (("ik", root, "--trial"), "--trial: is missing its name"),
-        (("ik", tmp_path / "x.b3d"), "nimblephysics"),
+        (
+            ("ik", tmp_path / "x.b3d"),
+            "x.b3d: is AddBiomechanics' own format; its only reader, nimblephysics, has had no",
+        ),
+        (
+            ("id", tmp_path / "x.b3d"),
+            "download the subject's OpenSim results (.osim, .mot, .trc), and name that folder",
+        ),
     ):
         refused = call(*words, "--out", tmp_path / "no") if words[-1] != "--trial" else call(*words)
         assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err

@@ -11,7 +11,6 @@ GLOBAL_UNIT_ASSIGNED_CONTEXT says.
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 import sys
@@ -29,6 +28,7 @@ from scipy.spatial import cKDTree
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.mesh import mesh_checks
+from geocontact.io.text.apart import run_apart
 from geocontact.io.text.file_preflight import not_a
 from geocontact.io.text.units import LENGTH, MESH_UNITS
 
@@ -119,14 +119,9 @@ def _welded(
 
 
 def _run(file: str, folder: Path) -> None:
-    """The other process, which finds the modules that this one finds; what OpenCASCADE prints stays there."""
-    here = str(Path(__file__).resolve().parents[3])
-    paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
-    command = [sys.executable, "-P", "-W", "ignore", "-m", __name__, str(folder / "in.step"), str(folder / "out.npz")]
+    """The other process; what OpenCASCADE prints stays there."""
     try:
-        child = subprocess.run(
-            command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, timeout=PATIENCE, check=False
-        )
+        child = run_apart(__name__, [str(folder / "in.step"), str(folder / "out.npz")], PATIENCE)
     except subprocess.TimeoutExpired as error:
         raise InputError(file, "", f"is not read within {PATIENCE:.0f} s", _AGAIN) from error
     if child.returncode:
