@@ -32,7 +32,7 @@ LONGEST = 1.0
 """m between a joint and the markers of its segment; no segment is that long."""
 
 
-class Fitted(Protocol):
+class FittedSegments(Protocol):
     """What was fitted in place of markers."""
 
     names: tuple[str, ...]
@@ -42,7 +42,7 @@ class Fitted(Protocol):
 
 
 def goodness_of_poses(
-    found: Poses, model: Multibody, limits: MarkerLimits, segments: Fitted | None = None
+    found: Poses, model: Multibody, limits: MarkerLimits, segments: FittedSegments | None = None
 ) -> GoodnessOfFit:
     """Markers beside what is advised, angles beside their range, frames beside what markers determine.
 

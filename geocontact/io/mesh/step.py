@@ -35,7 +35,7 @@ from geocontact.io.text.units import LENGTH, MESH_UNITS
 CHORD, TURN = 1e-5, 0.2
 """Largest distance of the triangles from the surface [m], and angle between neighbours [rad]."""
 SAME = 2e-7
-"""Of the largest extent: what seven digits cannot tell apart."""
+"""Share of the largest extent within which seven digits leave corners apart."""
 PATIENCE = 600.0
 """Seconds for one file."""
 _HEAD = b"ISO-10303-21"

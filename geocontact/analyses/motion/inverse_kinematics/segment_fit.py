@@ -57,7 +57,7 @@ class SegmentFit:
 
     @property
     def rms(self) -> float:
-        """Of all angles [rad]; NaN where no orientation counts."""
+        """Root mean square angle of all segments [rad]; NaN where no orientation counts."""
         return _rms(self.angles)
 
     def table(self) -> pd.DataFrame:

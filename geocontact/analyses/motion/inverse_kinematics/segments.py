@@ -69,7 +69,7 @@ class Segments:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the segments."""
+        """Names of the segments."""
         return self.poses.names
 
     @property
