@@ -237,8 +237,9 @@ def _read(command: str, file: Path, c3d_unit: str | None) -> MarkerTrajectories:
         python_warnings.simplefilter("ignore", InputWarning)
         if command == "ik" and holds_segments(file):
             seen = read_c3d_poses(file, c3d_unit)
-            places = np.where(seen.there[..., None], seen.origins, np.nan)
-            return MarkerTrajectories(seen.time, places, seen.names, seen.source)
+            if seen.origins is not None:
+                places = np.where(seen.there[..., None], seen.origins, np.nan)
+                return MarkerTrajectories(seen.time, places, seen.names, seen.source)
         return read_markers(file, c3d_unit)
 
 

@@ -35,7 +35,9 @@ LONGEST = 1.0
 class FittedSegments(Protocol):
     """What was fitted in place of markers."""
 
-    names: tuple[str, ...]
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of what was compared."""
 
     def doubts(self) -> Iterable[Doubt]:
         """What does not agree with the model."""

@@ -41,7 +41,7 @@ class SegmentPoses:
     def there(self) -> Bool[np.ndarray, "t s"]:
         """Whether a segment was seen in a frame."""
         found = np.isfinite(self.rotations).all(axis=(2, 3))
-        return found if self.origins is None else found & np.isfinite(self.origins).all(axis=2)
+        return np.asarray(found if self.origins is None else found & np.isfinite(self.origins).all(axis=2))
 
     def between(self, start: float, stop: float) -> SegmentPoses:
         """Frames from one time to another, both included to a millionth of a second."""

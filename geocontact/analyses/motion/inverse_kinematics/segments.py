@@ -199,7 +199,7 @@ def _placed(
     """X_BS of each segment in the first frame that shows all of them; origins count from the first body's."""
     whole = np.flatnonzero(still.there.all(axis=1))
     if not len(whole):
-        never = [name for name, seen in zip(still.names, still.there.any(axis=0), strict=True) if not seen]
+        never = [name for name, seen in zip(still.names, np.asarray(still.there.any(axis=0)), strict=True) if not seen]
         what = f"no frame shows all segments{f'; {listed(tuple(never))} in none' if never else ''}"
         raise InputError(still.source, "", what, "give another `calibration`, or leave out with `markers_map`")
     rotations = still.rotations[whole[0]]
