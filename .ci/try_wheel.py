@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import runpy
 import subprocess
 import sys
 import tempfile
@@ -102,8 +103,9 @@ pathlib.Path("muscular.osim").write_text(model, "utf-8")
 """
 
 
-BEGINNINGS = {".c3d": b"\x02P" + bytes(1022), ".xlsx": b"PK\x03\x04", ".osim": b"<?xml"}
-"""What files begin with that are to look like one before the extra can make them."""
+BALL = runpy.run_path(str(ROOT / "tests" / "step_files.py"))["sphere"](20.0, "mm")
+BEGINNINGS = {".c3d": b"\x02P" + bytes(1022), ".xlsx": b"PK\x03\x04", ".osim": b"<?xml", ".step": BALL.encode()}
+"""What files begin with that are to look like one before the extra can make them; a text needs none."""
 
 
 @dataclass(frozen=True)
@@ -149,6 +151,7 @@ EXTRAS = {
     "excel": Extra(f"area {KNEE} --motion two.xlsx --out excel", "openpyxl", WORKBOOK, "two.xlsx"),
     "cohort": Extra("cohort study.toml --workers 1 --out study", "geocontact[cohort]"),
     "parquet": Extra(f"area {KNEE} --motion two.csv --parquet --out parquet", "geocontact[parquet]"),
+    "step": Extra("fit ball.step --shape sphere --unit mm --out step", "geocontact[step]", input="ball.step"),
     "muscles": Extra(
         "id {m}/leg_swing.mot --model muscular.osim --muscles --across tibia_r --out muscles",
         "geocontact[muscles]",

@@ -430,3 +430,30 @@ def _table(file: Path) -> tuple[list[str], np.ndarray]:
     rows = [table.getRowAtIndex(t) for t in range(table.getNumRows())]
     values = np.array([[row[k] for k in range(len(names))] for row in rows])
     return ["time", *names], np.column_stack([np.array(table.getIndependentColumn()), values])
+
+
+def orientation_kinematics(
+    model_file: Path, calibration: Path, recording: Path, base: str, axis: str, turn: Sequence[float], out: Path
+) -> tuple[list[str], np.ndarray]:
+    """Names and values [deg, m] of OpenSense: IMUPlacer on a calibration, then its kinematics of a recording."""
+    import opensim
+
+    opensim.Logger.setLevelString("Off")
+    placer = opensim.IMUPlacer()
+    placer.set_model_file(str(model_file))
+    placer.set_orientation_file_for_calibration(str(calibration))
+    placer.set_sensor_to_opensim_rotations(opensim.Vec3(*turn))
+    placer.set_base_imu_label(base)
+    placer.set_base_heading_axis(axis)
+    placed = out / "placed.osim"
+    placer.set_output_model_file(str(placed))
+    placer.run(False)
+    tool = opensim.IMUInverseKinematicsTool()
+    tool.set_model_file(str(placed))
+    tool.set_orientations_file(str(recording))
+    tool.set_sensor_to_opensim_rotations(opensim.Vec3(*turn))
+    tool.set_results_directory(str(out))
+    tool.run(False)
+    table = opensim.TimeSeriesTable(str(out / f"ik_{recording.stem}.mot"))
+    names = [str(name).rpartition("/")[2] for name in table.getColumnLabels()]
+    return names, table.getMatrix().to_numpy()

@@ -95,6 +95,7 @@ FEATURES = (
     Feature("optimal control", "casadi", "body models", "import casadi", "pip install casadi"),
     Feature("studies", "distributed", "cohort", "import distributed", "pip install 'geocontact[cohort]'"),
     Feature("motion capture", "ezc3d", ".c3d files", "import ezc3d", "pip install ezc3d"),
+    Feature("STEP surfaces", "cascadio", ".step meshes", "import cascadio", "pip install 'geocontact[step]'"),
     Feature("muscles", "opensim", "id --muscles", "import opensim", "pip install 'geocontact[muscles]'"),
 )
 

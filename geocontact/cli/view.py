@@ -30,7 +30,7 @@ def view(
     Parameters
     ----------
     result
-        Folder that an analysis wrote, or the page itself; or a mesh (.stl .ply .obj .off .vtp), with --unit.
+        Folder that an analysis wrote, or the page itself; or a mesh (.stl .ply .obj .off .vtp .step), with --unit.
     window
         Open a 3-D window with a time slider instead; the analysis must have been run with --save-map.
     unit

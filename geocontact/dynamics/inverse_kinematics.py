@@ -5,10 +5,12 @@ Newton's steps; the curvature, exact, is kept as long as they shrink fast, and d
 where they do not lead down. As in OpenSim a coordinate that is held counts beside the mean over the markers that are
 seen in the frame: Σ w |x - observed|² / Σ w + v (q - wanted)². Coordinates that the model clamps stay within their
 limits, locked ones at their default; those that depend on others follow them, and points that a constraint joins stay
-together, to 0.1 mm. A marker that is not seen does not count
-in that frame. The search begins where most markers are seen and goes from there to both ends. Coordinates that no
-frame tells stay at their defaults, as few as are needed for all others to be determined. What the markers of a frame
-do not tell is not stated, or filled where the gap is short.
+together, to 0.1 mm. A marker that is not seen does not count in that frame. A direction of a body counts as a marker
+does, from the body's origin: three of length a / √2 along its axes are 4 a² sin²(θ/2) away, which is a² θ² up to a part
+θ²/12, where θ is the angle between the orientation recorded and the model's; OpenSim's tools have θ² itself. The search
+begins where most markers are seen and goes from there to both ends. Coordinates that no frame tells stay at their
+defaults, as few as are needed for all others to be determined. What the markers of a frame do not tell is not stated,
+or filled where the gap is short.
 """
 
 from __future__ import annotations
@@ -61,7 +63,11 @@ class MarkerFit:
             at = tree.point(body, constant(place))
             return substitute(at, tree.q, whole) if tree.model.couplers else at
 
-        places = vertcat(*(point(m.body, m.location) for m in markers))
+        def seen_as(marker: Marker) -> SX:
+            at = point(marker.body, marker.location)
+            return at - point(marker.body, np.zeros(3)) if marker.direction else at
+
+        places = vertcat(*map(seen_as, markers))
         observed, weights = SX.sym("observed", 3 * len(markers)), SX.sym("weights", len(markers))
         wanted, held = SX.sym("wanted", len(tree.names)), SX.sym("held", len(tree.names))
         each = reshape(mtimes(SX.ones(3, 1), weights.T), -1, 1)
@@ -96,7 +102,7 @@ class MarkerFit:
         return np.zeros((0, len(q))) if self._ties is None else self._ties(q)[0].reshape(-1, len(q)).copy()
 
     def places(self, q: Float[np.ndarray, " n"]) -> Float[np.ndarray, "m 3"]:
-        """Where the markers are in a pose, in the ground's frame [m]."""
+        """Where the markers are in a pose, in the ground's frame [m]; of directions from the body's origin."""
         return np.array(self._places(q)[0]).reshape(-1, 3)
 
 

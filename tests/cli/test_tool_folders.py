@@ -201,7 +201,14 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
         (("scale", root), "holds no generic model to scale; name a generic model with --model"),
         (("ik", leg / "walk.trc", "--trial", "a"), "--trial: has no effect without a folder"),
         (("ik", root, "--trial"), "--trial: is missing its name"),
-        (("ik", tmp_path / "x.b3d"), "nimblephysics"),
+        (
+            ("ik", tmp_path / "x.b3d"),
+            "x.b3d: is AddBiomechanics' own format; its only reader, nimblephysics, has had no",
+        ),
+        (
+            ("id", tmp_path / "x.b3d"),
+            "download the subject's OpenSim results (.osim, .mot, .trc), and name that folder",
+        ),
     ):
         refused = call(*words, "--out", tmp_path / "no") if words[-1] != "--trial" else call(*words)
         assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
@@ -220,7 +227,7 @@ def test_what_is_not_clear_is_refused_in_one_line(leg: Path, tmp_path: Path) -> 
     with pytest.raises(InputError, match="b3d only"):
         read_tool_folder(tmp_path / "empty")
     (tmp_path / "empty" / "a.c3d").write_bytes(b"\x02\x50" + 600 * b"\0" + b"pelvis_4X4")
-    with pytest.raises(InputError, match="as Theia writes them, which are not read"):
+    with pytest.raises(InputError, match=r"a.c3d: cannot be read"):
         folder_inputs("ik", tmp_path / "empty")
     two = put(leg, tmp_path / "two", ("leg.osim", "leg.osim"), ("still.trc", "cal1.trc"), ("still.trc", "static2.trc"))
     with pytest.raises(InputError, match="2 trials are static: cal1, static2; say which one with `trial`"):
@@ -349,8 +356,11 @@ def test_poses_of_segments_are_refused_with_the_reason(leg: Path, tmp_path: Path
     content["data"]["points"] = np.zeros((4, 0, 50))
     content.add_parameter("ROTATION", "LABELS", ["worldbody_4X4", "pelvis_4X4", "l_thigh_4X4"])
     content.write(str(root / "poses.c3d"))
+    refused = call("scale", root / "poses.c3d", "--model", leg / "leg.osim", "--mass", "23", "--out", tmp_path / "no")
+    line = "ROTATION:LABELS: holds poses of segments (…_4X4), as Theia writes them, in place of markers"
+    assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
     refused = call("ik", root / "poses.c3d", "--model", leg / "leg.osim", "--out", tmp_path / "no")
-    line = "ROTATION:LABELS: holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
+    line = "ROTATION: holds no poses of segments; is the file complete?"
     assert refused.code == 2 and line in refused.err and len(refused.complaints) == 1, refused.err
     (one,) = folder_inputs("ik", root)
     assert one.trial == "walk" and line in one.warnings[0]

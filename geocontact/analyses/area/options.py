@@ -68,7 +68,7 @@ class AreaOptions(Options):
     Parameters
     ----------
     moving
-        Mesh that moves (.stl .ply .obj .off .vtp).
+        Mesh that moves (.stl .ply .obj .off .vtp .step).
     fixed
         Mesh in whose frame results are given.
     unit

@@ -153,7 +153,7 @@ def read_surface(
     Parameters
     ----------
     path
-        `.stl`, `.ply`, `.obj`, `.off` or `.vtp`; see `read_mesh`.
+        `.stl`, `.ply`, `.obj`, `.off`, `.vtp` or `.step`; see `read_mesh`.
     unit
         Unit of the file's numbers. Never guessed.
     assume_closed

@@ -14,6 +14,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import read_c3d_plates
 from geocontact.io.mocap.markers import read_markers
+from geocontact.io.mocap.segment_poses import holds_segments, read_c3d_poses
 from geocontact.io.opensim.external_loads import read_external_loads
 from geocontact.io.opensim.osim_xml import numbers_of, read_model
 from geocontact.io.recordings.tool_folder import (
@@ -191,7 +192,7 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
     if not there:
         raise InputError(folder.root, "", f"no trial has {first}", REMEDIES[first])
     found = ChosenTrials(there, left_out=[f"{t.name} (no {first})" for t in folder.trials if t not in there])
-    usable, still = _readable(folder, found, c3d_unit) if first == "markers" else (there, [])
+    usable, still = _readable(command, folder, found, c3d_unit) if first == "markers" else (there, [])
     standing = [t for t in usable if t.static]
     if folder.kind == TRIALS and first == "markers":
         standing = _standing(usable, still, found.notes)
@@ -208,7 +209,7 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
 
 
 def _readable(
-    folder: ToolFolder, found: ChosenTrials, c3d_unit: str | None
+    command: str, folder: ToolFolder, found: ChosenTrials, c3d_unit: str | None
 ) -> tuple[list[FolderTrial], list[FolderTrial]]:
     """Trials of one file of markers that can be read, and which of a laboratory's stand still.
 
@@ -221,7 +222,7 @@ def _readable(
             if trial.rival is not None:
                 raise InputError(folder.root, "", _rivals(trial), RIVALS)
             if folder.kind == TRIALS and trial.markers is not None:
-                still += [trial] if _stands_still(_read(trial.markers, c3d_unit)) else []
+                still += [trial] if _stands_still(_read(command, trial.markers, c3d_unit)) else []
         except InputError as error:
             refusals[trial.name] = error
     if len(refusals) == len(found.trials):
@@ -230,10 +231,15 @@ def _readable(
     return [t for t in found.trials if t.name not in refusals], still
 
 
-def _read(file: Path, c3d_unit: str | None) -> MarkerTrajectories:
-    """Markers without the warnings that the command itself gives."""
+def _read(command: str, file: Path, c3d_unit: str | None) -> MarkerTrajectories:
+    """Markers, or for `ik` origins of segments, without the warnings that the command itself gives."""
     with python_warnings.catch_warnings():
         python_warnings.simplefilter("ignore", InputWarning)
+        if command == "ik" and holds_segments(file):
+            seen = read_c3d_poses(file, c3d_unit)
+            if seen.origins is not None:
+                places = np.where(seen.there[..., None], seen.origins, np.nan)
+                return MarkerTrajectories(seen.time, places, seen.names, seen.source)
         return read_markers(file, c3d_unit)
 
 
@@ -272,6 +278,8 @@ def _options(
             warnings += _of_mass(folder, model)
     if command == "scale" and "mass" not in typed and folder.person is not None and folder.person.mass is not None:
         found["mass"] = repr(folder.person.mass)
+    if command == "ik" and "calibration" not in typed:
+        warnings += _of_the_calibration(folder, trial, found)
     if command == PLANAR:
         warnings += _of_the_plane(folder, trial, typed, found)
     if command == "id" and not {"loads", "plates"} & typed:
@@ -281,6 +289,18 @@ def _options(
         else:
             warnings.append(f"{folder.kind}: no ground reaction belongs to {trial.name}: nothing but gravity acts")
     return found, warnings
+
+
+def _of_the_calibration(folder: ToolFolder, trial: FolderTrial, found: dict[str, str]) -> list[str]:
+    """Puts the static trial, by its name, into `found` where a trial holds segments; a warning where there are more."""
+    if trial.markers is None or not holds_segments(trial.markers):
+        return []
+    static = [t for t in folder.trials if t.static and t != trial and t.markers and holds_segments(t.markers)]
+    if len(static) > 1:
+        return [f"{listed(tuple(t.name for t in static))} are static: say with `calibration` where the person stands"]
+    if static:
+        found["calibration"] = str(static[0].markers)
+    return []
 
 
 def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str], found: dict[str, str]) -> list[str]:
@@ -351,6 +371,8 @@ def _parts(
     if "model" in options:
         fitted = folder.kind == ADDBIOMECHANICS and command != "scale"
         rows.append(part("model", options["model"], note="of the last step of the fit" if fitted else ""))
+    if "calibration" in options:
+        rows.append(part("calibration", options["calibration"]))
     if "plates" in options and Path(options["plates"]).is_relative_to(folder.root):
         rows.append(part("plates", options["plates"], trial.name))
     if "loads" in options:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import Protocol
 
 import numpy as np
 
@@ -31,14 +32,32 @@ LONGEST = 1.0
 """m between a joint and the markers of its segment; no segment is that long."""
 
 
-def goodness_of_poses(found: Poses, model: Multibody, limits: MarkerLimits) -> GoodnessOfFit:
-    """Markers beside what is advised, angles beside their range, frames beside what markers determine."""
-    doubts = [*of_markers(MarkerErrors.of(found), limits), *of_ends(found, model)]
+class FittedSegments(Protocol):
+    """What was fitted in place of markers."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of what was compared."""
+
+    def doubts(self) -> Iterable[Doubt]:
+        """What does not agree with the model."""
+
+
+def goodness_of_poses(
+    found: Poses, model: Multibody, limits: MarkerLimits, segments: FittedSegments | None = None
+) -> GoodnessOfFit:
+    """Markers beside what is advised, angles beside their range, frames beside what markers determine.
+
+    `segments` stand in place of the markers where these were recorded.
+    """
+    own = of_markers(MarkerErrors.of(found), limits) if segments is None else segments.doubts()
+    doubts = [*own, *of_ends(found, model)]
     unsettled = float(np.mean(~found.settled))
     doubts += of_range("the search for the pose did not converge for", unsettled)
     lost = float(np.mean(~np.isfinite(found.values).all(axis=1)))
-    doubts += [Doubt(each.what, False) for each in of_range("too few markers determine the coordinates for", lost)]
-    return GoodnessOfFit(tuple(doubts), (*found.markers, *found.names))
+    few = f"too few {'markers' if segments is None else 'segments'} determine the coordinates for"
+    doubts += [Doubt(each.what, False) for each in of_range(few, lost)]
+    return GoodnessOfFit(tuple(doubts), (*(found.markers if segments is None else segments.names), *found.names))
 
 
 def of_markers(errors: MarkerErrors, limits: MarkerLimits) -> Iterable[Doubt]:

@@ -157,21 +157,33 @@ def marker_tasks(
         add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
         if (named := tasks_file(file)) != file:
             add_input("tasks that it names", named)
-    known = {c.name: c for c in model.coordinates}
-    markers = {**tasks.markers, **_named(weight, "`weight`", {m.name for m in model.markers}, "R.Heel=10")}
-    if min(markers.values(), default=0.0) < 0.0:
-        raise InputError("", "`weight`", "a weight is negative", "weights are 0 or more")
-    held = _named(hold, "`hold`", set(known), "subtalar_angle_r=5.2")
-    fixed = [name for name in held if known[name].locked]
-    if fixed:
-        raise InputError("", "`hold`", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
-    wanted = {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
+    known = {c.name for c in model.coordinates}
+    markers = {**tasks.markers, **weights_typed(weight, {m.name for m in model.markers}, "R.Heel=10")}
+    wanted = held_near(model, hold)
     _refuse_strangers(model, seen, markers)
     weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
     _warn(model, seen, markers, [*weighed, *tasks.from_file])
     near = {name: by for name, by in tasks.from_file.items() if name in known and name not in wanted}
     followed = _followed(model, seen, near, file, follow)
     return MarkerTasks(markers, {**tasks.coordinates, **wanted}, near, followed)
+
+
+def weights_typed(texts: tuple[str, ...], names: set[str], example: str) -> dict[str, float]:
+    """Weights by name from `weight`; InputError for a name that is not among these, and for one below 0."""
+    found = _named(texts, "`weight`", names, example)
+    if min(found.values(), default=0.0) < 0.0:
+        raise InputError("", "`weight`", "a weight is negative", "weights are 0 or more")
+    return found
+
+
+def held_near(model: Multibody, hold: tuple[str, ...]) -> dict[str, tuple[float, float]]:
+    """Weight and value [rad, m] of each coordinate that `hold` names."""
+    known = {c.name: c for c in model.coordinates}
+    held = _named(hold, "`hold`", set(known), "subtalar_angle_r=5.2")
+    fixed = [name for name in held if known[name].locked]
+    if fixed:
+        raise InputError("", "`hold`", f"'{fixed[0]}' is locked by the model", "unlock it there, or leave it out")
+    return {name: (HELD, np.radians(v) if known[name].kind == "rotational" else v) for name, v in held.items()}
 
 
 def _followed(

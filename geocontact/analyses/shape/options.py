@@ -35,7 +35,7 @@ class ShapeOptions(Options):
     Parameters
     ----------
     mesh
-        Surface to fit to (.stl .ply .obj .off .vtp).
+        Surface to fit to (.stl .ply .obj .off .vtp .step).
     shape
         What is fitted.
     unit

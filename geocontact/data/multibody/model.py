@@ -140,12 +140,16 @@ class Marker:
         In the body's frame [m].
     fixed
         Whether it is to stay there when markers are moved to where a subject had them.
+    direction
+        Whether it was recorded as a direction, from the body's origin in the ground's axes, and not as a place: an
+        orientation is three of them.
     """
 
     name: str
     body: str
     location: Float[np.ndarray, " 3"]
     fixed: bool = False
+    direction: bool = False
 
 
 @dataclass(frozen=True)

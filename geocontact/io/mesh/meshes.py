@@ -1,4 +1,4 @@
-"""Surface meshes: STL, PLY, OBJ, OFF and VTP to vertices in metres and faces."""
+"""Surface meshes: STL, PLY, OBJ, OFF, VTP and STEP to vertices in metres and faces."""
 
 from __future__ import annotations
 
@@ -24,12 +24,21 @@ from geocontact.io.mesh.mesh_checks import (
 from geocontact.io.mesh.obj import read_obj
 from geocontact.io.mesh.off import read_off
 from geocontact.io.mesh.ply import read_ply
+from geocontact.io.mesh.step import read_step, require_unit_of_step
 from geocontact.io.mesh.stl import read_stl, space_of_stl
 from geocontact.io.mesh.vtp import read_vtp
 from geocontact.io.text.file_preflight import read_bytes
 
 _Reader = Callable[[bytes, str], tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]]
-READERS: dict[str, _Reader] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".vtp": read_vtp}
+READERS: dict[str, _Reader] = {
+    ".stl": read_stl,
+    ".ply": read_ply,
+    ".obj": read_obj,
+    ".off": read_off,
+    ".vtp": read_vtp,
+    ".step": read_step,
+    ".stp": read_step,
+}
 """Reader of each file name extension; no other file is opened."""
 TABLES = (".csv", ".txt", ".xyz")
 
@@ -50,10 +59,10 @@ def read_mesh(
     Parameters
     ----------
     path
-        `.stl` (ASCII, binary), `.ply` (ASCII, binary), `.obj`, `.off` (ASCII) or `.vtp`; the content must be what the
-        name says.
+        `.stl` (ASCII, binary), `.ply` (ASCII, binary), `.obj`, `.off` (ASCII), `.vtp`, `.step` or `.stp` (extra
+        `step`, cut into triangles within 0.01 mm); the content must be what the name says.
     unit
-        Unit of the file's numbers: m, cm, mm or in. Never guessed.
+        Unit of the file's numbers: m, cm, mm or in. Never guessed; that of a STEP file must be the one it states.
     plausible
         Smallest and largest diagonal of the bounding box [m]; outside, the unit is taken to be wrong.
     merge_tolerance
@@ -88,6 +97,8 @@ def read_mesh(
         data = read_bytes(path)
         space = space_of_stl(data) if reader is read_stl else ""
         sha256 = hashlib.sha256(data).hexdigest()
+        if reader is read_step:
+            require_unit_of_step(data, unit, name)
         vertices, faces = reader(data, name)
         del data
         require_finite(vertices, faces, name)

@@ -15,8 +15,8 @@ from jaxtyping import Float
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import Arrays, point_metre, read_apart
+from geocontact.io.mocap.segment_poses import holds_segments
 from geocontact.io.mocap.trc import without_subject
-from geocontact.io.text.file_preflight import read_bytes
 
 
 def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> MarkerTrajectories:
@@ -48,15 +48,11 @@ def read_c3d_markers(path: str | PathLike[str], c3d_unit: str | None = None) -> 
     return MarkerTrajectories(time, np.where(lost[..., None], np.nan, metre * positions), names, file)
 
 
-HEAD = 65_536
-"""Bytes of a .c3d that hold the labels of its segments."""
-
-
 def _refuse_segments(path: str | PathLike[str]) -> None:
     """InputError for poses of segments in place of points, as Theia writes them: labels such as pelvis_4X4."""
-    if b"pelvis_4X4" in read_bytes(path)[:HEAD]:
-        what = "holds poses of segments (pelvis_4X4 …), as Theia writes them, which are not read"
-        raise InputError(path, "ROTATION:LABELS", what, "export markers or joint centres as .trc or .c3d")
+    if holds_segments(path):
+        what = "holds poses of segments (…_4X4), as Theia writes them, in place of markers"
+        raise InputError(path, "ROTATION:LABELS", what, "`ik` reads them; else export markers as .trc or .c3d")
 
 
 def _named(file: str, labels: list[str], positions: Float[np.ndarray, "t m 3"]) -> tuple[tuple[str, ...], list[int]]:

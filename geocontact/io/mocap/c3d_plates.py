@@ -26,6 +26,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
 from geocontact.io.mocap.c3d_parameters import MIPS, as_intel, processor, with_real_numbers, with_whole_counts
+from geocontact.io.text.apart import run_apart
 from geocontact.io.text.file_preflight import read_bytes
 from geocontact.io.text.units import LENGTH, length_unit, si_unit
 
@@ -268,14 +269,9 @@ def _digestible(data: bytes, file: str, analogs: bool) -> bytes:
 
 
 def _run(file: str, module: str, copy: str, patience: float) -> Arrays:
-    """The module in another process, which finds the modules that this one finds, on a file or a copy of it."""
-    here = str(Path(__file__).resolve().parents[2])
-    paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
-    command = [sys.executable, "-P", "-W", "ignore", "-m", module, str(Path(copy).absolute())]
+    """The module in another process, on a file or a copy of it."""
     try:
-        child = subprocess.run(
-            command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, timeout=patience, check=False
-        )
+        child = run_apart(module, [str(Path(copy).absolute())], patience)
     except subprocess.TimeoutExpired as error:
         raise InputError(file, "", f"is not read within {patience:.0f} s", "is the file damaged?") from error
     if child.returncode == 0:

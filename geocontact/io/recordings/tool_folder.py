@@ -130,7 +130,10 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
     )
 
 
-B3D = "its reader, nimblephysics, is not used here: download the subject's OpenSim results as a folder"
+B3D = (
+    "its only reader, nimblephysics, has had no release since December 2024 and has none for Python 3.13: download the "
+    "subject's OpenSim results (.osim, .mot, .trc), and name that folder"
+)
 
 
 def _opencap(root: Path) -> ToolFolder | None:

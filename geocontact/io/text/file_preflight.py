@@ -78,6 +78,7 @@ _LOOKS = (
     (rb"(?:\s|#[^\n]*\n)*(?:ST)?C?N?4?n?OFF\s", "an OFF file", "name it .off"),
     (rb"%PDF", "a PDF document", "export the surface again"),
     (rb"\x89PNG|\xff\xd8\xff|GIF8", "a picture", "export the surface again"),
+    (rb"\s*ISO-10303-21", "a STEP file", "name it .step"),
     (rb"glTF", "a binary glTF file", "convert it to .stl, .ply, .obj, .off or .vtp"),
     (rb"[\t\n\r\x20-\x7e]{1,512}\Z", "plain text", "export the surface again"),
 )

@@ -58,12 +58,15 @@ class StorageHeader:
     lines: int
 
 
-def read_storage_header(stream: TextIOBase, file: str) -> StorageHeader:
-    """Header of a .mot or .sto file; `stream` is left at the line of column labels."""
+def read_storage_header(stream: TextIOBase, file: str, kind: str = "double") -> StorageHeader:
+    """Header of a .mot or .sto file with cells of a kind; `stream` is left at the line of column labels.
+
+    A file that does not say its `DataType` holds plain numbers (double).
+    """
     rows: list[tuple[int, str, int]] = []
     columns: list[tuple[int, str, int]] = []
     said: list[tuple[AngleUnit, str, int]] = []
-    simm, version, number = False, "", 0
+    simm, version, number, said_kind = False, "", 0, "double"
     for number, line in _header_lines(stream, file):
         key, value, simm_key = _pair(line)
         simm |= simm_key
@@ -73,12 +76,15 @@ def read_storage_header(stream: TextIOBase, file: str) -> StorageHeader:
             version = value
         elif key == "indegrees":
             said.append((_flag(value, number, file), f"inDegrees={value}", number))
-        elif key == "datatype" and value.lower() != "double":
-            raise InputError(
-                file, f"line {number}", f"DataType={value} cannot be used", "export plain numbers (double)"
-            )
+        elif key == "datatype":
+            said_kind = value.lower()
+            if said_kind != kind:
+                wanted = "export plain numbers (double)" if kind == "double" else f"DataType={kind.title()} is expected"
+                raise InputError(file, f"line {number}", f"DataType={value} cannot be used", wanted)
         elif (unit := unit_in_text(line)) is not None:
             said.append((unit, line, number))
+    if said_kind != kind:
+        raise InputError(file, "", f"holds plain numbers, not DataType={kind.title()}", "export orientations")
     return StorageHeader(tuple(rows), tuple(columns), _judge(said, simm), version, number + 1)
 
 

@@ -206,6 +206,25 @@ def _read_storage(stream: TextIOBase, file: str) -> TextTable:
     return _table(file, names, ("",) * len(names), values, lines, header.angles)
 
 
+def read_quaternions(path: str | PathLike[str]) -> TextTable:
+    """Table of OpenSense (.sto, `DataType=Quaternion`): four columns for each, its name and w, x, y or z."""
+    file = fspath(path)
+    _preflight(file)
+    with open_text(file, encoding_of(file)) as stream:
+        header = read_storage_header(stream, file, "quaternion")
+        labels = tuple(_label_line(stream, file, header.lines + 1).split())
+        names = (*labels[:1], *(f"{label} {part}" for label in labels[1:] for part in "wxyz"))
+        values, lines = read_rows(stream, header.lines + 2, names, file, _split_quaternions)
+        return _table(file, names, ("",) * len(names), values, lines, header.angles)
+
+
+def _split_quaternions(line: str, _separator: None, _most: int) -> list[str]:
+    """Time and the four numbers of each cell; a cell that is NaN as a whole is four of them."""
+    first, *cells = line.split() or [""]
+    parts = [part for cell in cells for part in (cell.split(",") if "," in cell else 4 * [cell])]
+    return [first, *parts] if first else []
+
+
 def _warn_of_counts(header: StorageHeader, rows: int, columns: int, file: str) -> None:
     """Counts of the header that are not those of the table: OpenSim reads on without a word."""
     counts = [

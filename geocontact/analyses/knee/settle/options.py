@@ -57,7 +57,7 @@ class SettleOptions(Options):
     Parameters
     ----------
     moving
-        Femoral component, rigid (.stl .ply .obj .off .vtp).
+        Femoral component, rigid (.stl .ply .obj .off .vtp .step).
     fixed
         Tibial insert, the elastic layer, in whose frame results are given.
     unit

@@ -15,14 +15,15 @@ from geocontact.data.plausible import GAP
 
 @dataclass(frozen=True)
 class IkOptions(Options):
-    """Joint angles from recorded markers: weighted least squares in every frame, within the limits of the model.
+    """Joint angles from recorded markers, segments or sensors: weighted least squares within the limits of the model.
 
     Parameters
     ----------
     markers
-        Marker trajectories (.trc, .c3d, .csv).
+        Marker trajectories (.trc, .c3d, .csv), poses of segments (Theia's .c3d), or orientations of sensors
+        (OpenSense's .sto).
     model
-        OpenSim model (.osim) with the markers.
+        OpenSim model (.osim) with the markers, or the bodies that segments and sensors belong to.
     tasks
         OpenSim's setup of inverse kinematics or its task set (.xml): weights of markers and coordinates. Without it all
         markers of the model count alike.
@@ -32,11 +33,13 @@ class IkOptions(Options):
         Markers of the model from a file of their own (.xml with a MarkerSet) in place of the model's.
     markers_map
         Names of recorded markers as the model calls them: RHEE=R.Heel,LHEE=L.Heel, or a file with a pair in each line.
+        For segments and sensors their bodies: l_thigh=femur_l.
     naming
         Recorded markers known by their marker set: auto recognises it from the labels, or its name (plug-in-gait,
         helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table.
     weight
-        Weight of a marker over that of `tasks`: R.Heel=10; 0 leaves it out. May be given again.
+        Weight of a marker over that of `tasks`, of a segment's orientation or its origin: R.Heel=10, pelvis_origin=0;
+        0 leaves it out. May be given again.
     hold
         Coordinate held near a value (deg, m; rad where the model couples it to others): subtalar_angle_r=5.2. May be
         given again.
@@ -57,6 +60,15 @@ class IkOptions(Options):
     time
         First and last time [s]: 0.4:1.6.
 
+    Segments and sensors
+    --------------------
+    calibration
+        File like the recording, in whose first frame the person stands as the model does by default; by default the
+        recording itself. How segments lie in their bodies comes from it.
+    heading
+        Segment and its axis that points where its body's x axis does in the calibration: pelvis_imu=-z. Without it the
+        person faces the x axis of the recording.
+
     Angles of joints
     ----------------
     knee
@@ -71,9 +83,10 @@ class IkOptions(Options):
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model),
-    MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), knees.csv with
-    `knee`, angles.csv with `joint_angles`, cycles.csv where heel strikes are known, ik.json, report.html (a moving
-    skeleton) and run.json into OUT.
+    MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), segments.csv in
+    place of both for segments and sensors (angle and distance of each from the model), knees.csv with `knee`,
+    angles.csv with `joint_angles`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton)
+    and run.json into OUT.
     """
 
     markers: Path
@@ -87,6 +100,8 @@ class IkOptions(Options):
     weight: Texts = ()
     hold: Texts = ()
     fill: Annotated[float, GAP] = 0.1
+    calibration: Path | None = None
+    heading: Expression | None = None
     knee: Texts = ()
     joint_angles: JointAngleForm | None = None
     events: Texts = ()

@@ -31,7 +31,8 @@ from geocontact.analyses.motion.goodness import goodness_of_poses, of_ends
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
 from geocontact.analyses.motion.inverse_kinematics.options import IkOptions
 from geocontact.analyses.motion.inverse_kinematics.read import KinematicsInputs, read
-from geocontact.analyses.motion.inverse_kinematics.show import kinematics_curves, kinematics_page
+from geocontact.analyses.motion.inverse_kinematics.segment_fit import SegmentFit
+from geocontact.analyses.motion.inverse_kinematics.show import kinematics_curves, kinematics_page, segments_page
 from geocontact.analyses.motion.joint_angles import joint_angles_table, warn_of_gimbal_lock
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
@@ -41,7 +42,7 @@ from geocontact.data.gait_events import STANCE
 from geocontact.dynamics.exchanged_markers import exchanged_markers
 from geocontact.dynamics.inverse_kinematics import Poses
 from geocontact.dynamics.inverse_kinematics import inverse_kinematics as kinematics_of
-from geocontact.dynamics.tree import tree_of
+from geocontact.dynamics.tree import Tree, tree_of
 from geocontact.identify.signals.gait_cycles import GaitCycles, gait_cycles
 from geocontact.io.mocap.trc import write_trc
 from geocontact.io.opensim.osim_scaler import write_scaled_model
@@ -92,13 +93,21 @@ class IkResult(Result):
 
     @property
     def rms_mm(self) -> float:
-        """Distance of the markers from the model, root mean square over markers and frames [mm]."""
-        return float(self.summary["rms_mm"])
+        """Distance of the markers, or origins of segments, from the model, root mean square [mm].
+
+        NaN where sensors recorded no place.
+        """
+        return float(self.summary.get("rms_mm", np.nan))
 
     @property
     def markers_mm(self) -> dict[str, dict[str, float]]:
-        """Root mean square and largest distance of each marker that was seen [mm]."""
-        return dict(self.summary["markers"])
+        """Root mean square and largest distance of each marker that was seen [mm]; nothing of segments."""
+        return dict(self.summary.get("markers", {}))
+
+    @property
+    def segment_fit(self) -> SegmentFit | None:
+        """Angles and distances of segments from the model; None where markers were recorded."""
+        return None if self.seen.segments is None else SegmentFit.of(self.poses, self.seen.segments)
 
     @property
     def rms(self) -> float:
@@ -116,12 +125,14 @@ class IkResult(Result):
         return squares_of(self.poses)
 
     def tables(self) -> dict[str, pd.DataFrame]:
-        """`coordinates` [deg, m], distances of `markers`; `knees`, `angles`, `cycles`, `naming` if any."""
+        """`coordinates` [deg, m], `markers` or `segments`; `knees`, `angles`, `cycles`, `naming` if any."""
         p = self.poses
         units = ["deg" if c.kind == "rotational" else "m" for c in self.seen.model.coordinates]
         values = printed(self.seen.model.coordinates, p.values).T
         angles = {f"{name} [{unit}]": v for name, unit, v in zip(p.names, units, values, strict=True)}
-        found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles}), "markers": self._distances()}
+        found = {"coordinates": pd.DataFrame({"time [s]": p.time, **angles})}
+        fit = self.segment_fit
+        found |= {"markers": self._distances()} if fit is None else {"segments": fit.table()}
         if self.seen.knees:
             found["knees"] = knee_table(self.seen.model, p, self.seen.knees)
         if (form := self.options.joint_angles) is not None:
@@ -132,21 +143,24 @@ class IkResult(Result):
 
     def figure(self) -> Figure:
         """Angles of all joints over time, and how far the markers are from the model."""
-        return drawn(kinematics_curves(self.seen.model, self.poses))
+        return drawn(kinematics_curves(self.seen.model, self.poses, self.segment_fit))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
         """Coordinates over time, and how far each marker is from the model."""
         title, seen = f"Inverse kinematics of {self.options.markers.name}", self.seen
         said = self.sentences[1:] if self.fit_outcome == "contradicts" else self.sentences
+        if (fit := self.segment_fit) is not None and seen.segments is not None:
+            return {REPORT: segments_page(title, seen.model, self.poses, self.cycles, said, seen.segments, fit)}
         return {REPORT: kinematics_page(title, seen.model, self.poses, seen.markers, self.cycles, said, seen.naming)}
 
     def write_files(self, folder: Path) -> None:
-        """ik.mot for OpenSim, its set-up with the markers as read and ik.json besides; analog.sto if asked for."""
+        """ik.mot for OpenSim, its set-up with markers as read and ik.json besides; analog.sto if asked for."""
         values = printed(self.seen.model.coordinates, self.poses.values)
         file = folder / "ik.mot"
         write_storage(file, self.poses.time, self.poses.names, values, title="Coordinates", degrees=True)
-        self._write_marker_errors(folder)
-        self._write_setup(folder)
+        if self.seen.segments is None:
+            self._write_marker_errors(folder)
+            self._write_setup(folder)
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
@@ -194,27 +208,36 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
             found = kinematics_of(tree, seen.markers, seen.tasks, lambda _: step(), fill=o.fill)
         except ValueError as error:
             raise InputError(o.markers, "", str(error), "is it the right file?") from error
-    summary = _summary(found, time.perf_counter() - began)
+    fit = None if seen.segments is None else SegmentFit.of(found, seen.segments)
+    summary = {**_summary(found, time.perf_counter() - began), **(_of_markers(found) if fit is None else fit.summary())}
     cycles = _cycles(seen, found, o)
     if cycles:
         summary["gait_cycles"] = cycles.counts
     result = IkResult(options=o, seen=seen, poses=found, cycles=cycles, summary=summary)
     results().update(plain(summary))
-    errors = MarkerErrors.of(found)
-    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found, MOVING.rms, MOVING.largest)
-    errors.warn(MOVING, "" if exchanged is None else exchange_question(exchanged))
-    if exchanged is None and "upright" not in seen.doubts:
+    exchanged = fit is None and _warn_of_markers(tree, seen, found)
+    if not exchanged and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
     _warn(found)
     if o.joint_angles is not None:
         warn_of_gimbal_lock(seen.model, found.time, np.asarray(found.values), o.joint_angles)
     for end in of_ends(found, seen.model):
-        reserve(f"{end.what}: the markers ask for an angle beyond it")
-    judge(goodness_of_poses(found, seen.model, MOVING), warned=True)
+        reserve(f"{end.what}: the {'markers ask' if fit is None else 'segments ask'} for an angle beyond it")
+    for doubt in () if fit is None else fit.doubts():
+        reserve(f"{doubt.what}: check `markers_map`, `axes`, `heading` and the pose of the calibration")
+    judge(goodness_of_poses(found, seen.model, MOVING, fit), warned=True)
     told = "" if (free := _never(found)) <= UNTOLD * len(found.names) else f"{free} of {len(found.names)} coordinates "
     told = told and f"{told}are not determined; "
-    say(f"{told}{len(found.time)} frames, {len(found.markers)} markers: {errors.words(MOVING)}")
+    what = f"{len(found.markers)} markers: {MarkerErrors.of(found).words(MOVING)}" if fit is None else fit.sentence()
+    say(f"{told}{len(found.time)} frames, {what}")
     return result
+
+
+def _warn_of_markers(tree: Tree, seen: KinematicsInputs, found: Poses) -> bool:
+    """A warning of markers far from the model; whether exchanged names explain it."""
+    exchanged = exchanged_markers(tree, seen.markers, seen.tasks, found, MOVING.rms, MOVING.largest)
+    MarkerErrors.of(found).warn(MOVING, "" if exchanged is None else exchange_question(exchanged))
+    return exchanged is not None
 
 
 def _never(found: Poses) -> int:
@@ -242,11 +265,6 @@ def squares_of(found: Poses) -> Float[np.ndarray, " t"]:
 
 def _summary(found: Poses, seconds: float) -> dict[str, object]:
     """Numbers of the whole recording, as `ik.json` holds them."""
-    squares = {
-        name: {"rms_mm": float(np.sqrt(np.mean(d[there] ** 2))), "max_mm": float(d[there].max())}
-        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
-        if (there := np.isfinite(d)).any()
-    }
     missing = ~np.isfinite(found.values)
     filled = ~found.determined & ~missing & found.determined.any(axis=0)
     return {
@@ -256,6 +274,17 @@ def _summary(found: Poses, seconds: float) -> dict[str, object]:
         "unsettled_frames": int((~found.settled).sum()),
         "filled_frames": {n: int(k) for n, k in zip(found.names, filled.sum(axis=0), strict=True) if k},
         "missing_frames": {n: int(k) for n, k in zip(found.names, missing.sum(axis=0), strict=True) if k},
+    }
+
+
+def _of_markers(found: Poses) -> dict[str, object]:
+    """Distances of markers, as `ik.json` holds them."""
+    squares = {
+        name: {"rms_mm": float(np.sqrt(np.mean(d[there] ** 2))), "max_mm": float(d[there].max())}
+        for name, d in zip(found.markers, 1e3 * found.distances.T, strict=True)
+        if (there := np.isfinite(d)).any()
+    }
+    return {
         "rms_mm": 1e3 * float(np.sqrt(np.nanmean(found.distances**2))),
         "total_squared_error_m2": [float(np.min(squares_of(found))), float(np.max(squares_of(found)))],
         "max_mm": 1e3 * float(np.nanmax(found.distances)),

@@ -11,6 +11,8 @@ from geocontact.analyses.frame.collector import contradicted
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, headline
 from geocontact.analyses.motion.gait_cycles import cycles_curves
+from geocontact.analyses.motion.inverse_kinematics.segment_fit import SegmentFit
+from geocontact.analyses.motion.inverse_kinematics.segments import Segments
 from geocontact.analyses.motion.marker_tasks import MarkerErrors
 from geocontact.analyses.motion.naming import Naming
 from geocontact.analyses.motion.panels import panels_of
@@ -69,6 +71,48 @@ def kinematics_page(
     )
 
 
+def segments_page(
+    title: str,
+    model: Multibody,
+    found: Poses,
+    cycles: GaitCycles,
+    sentences: Sequence[str],
+    segments: Segments,
+    fit: SegmentFit,
+) -> Page:
+    """The same from poses of segments or orientations of sensors."""
+    shown = thinned(len(found.time), [*np.asarray(found.values).T, *fit.angles.T])
+    values = np.asarray(found.values)[shown]
+    sections: list[Section] = [
+        *([scene_of(model, [skeleton(model, values)])] if np.isfinite(values).all(axis=1).any() else []),
+        Readout(fit.rows(shown)),
+        *kinematics_curves(model, found, fit).at(shown),
+        *cycles_curves(cycles),
+        fit.section(segments),
+        INPUTS,
+        OPTIONS,
+        Words("What the numbers do not contain", [STILL, NOT_A_DEVICE]),
+    ]
+    return Page(
+        title=title,
+        subtitle=f"{len(found.names)} coordinates of {model.name or 'the model'} from {len(fit.names)} segments",
+        time=found.time[shown],
+        time_label="time [s]",
+        headline=headline(sentences, most=2),
+        facts=[("Angle of segments, root mean square", f"{np.degrees(fit.rms):.1f} deg")],
+        sections=tuple(sections),
+        numbers=shown + 1,
+        total=len(found.time),
+    )
+
+
+STILL = (
+    "Angles count from the pose of the calibration: where the person stood otherwise than the model does by default, "
+    "all frames are off by as much, which the angles of the segments do not show. Sensors on skin and segments from "
+    "video move against the bones."
+)
+
+
 def answer(found: Poses) -> list[str]:
     """How well the markers fit and where worst; before it how many coordinates no frame determines, if any."""
     errors, free = MarkerErrors.of(found), int((~found.determined.any(axis=0)).sum())
@@ -81,14 +125,15 @@ def answer(found: Poses) -> list[str]:
     return said
 
 
-def kinematics_curves(model: Multibody, found: Poses) -> CurveSheet:
-    """Angles and shifts of joints, and how far each marker is from the model, over time."""
+def kinematics_curves(model: Multibody, found: Poses, fit: SegmentFit | None = None) -> CurveSheet:
+    """Angles and shifts of joints, and how far each marker or segment is from the model, over time."""
     angular = np.array([c.kind == "rotational" for c in model.coordinates])
     values, off = np.asarray(found.values), 1e3 * found.distances
+    markers = [Curve(n, d) for n, d in zip(found.markers, off.T, strict=True)]
     panels = [
         *panels_of(model, "deg", np.degrees(values), angular),
         *panels_of(model, "m", values, ~angular),
-        Curves("Distance of markers", "mm", [Curve(n, d) for n, d in zip(found.markers, off.T, strict=True)]),
+        *([Curves("Distance of markers", "mm", markers)] if fit is None else fit.curves()),
     ]
     return CurveSheet(panels, Course("time", "s", found.time))
 
