@@ -32,7 +32,13 @@ from geocontact.analyses.sit_to_stand.trial_recordings import (
     wrench_at,
 )
 from geocontact.analyses.sit_to_stand.worn_exoskeleton import worn_device, worn_sites
-from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, doubt_friction, joint_torques, person_of
+from geocontact.analyses.sit_to_stand.worn_trials import (
+    confront_segments,
+    doubt_friction,
+    joint_torques,
+    name_odd_segments,
+    person_of,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -66,6 +72,7 @@ def standing_trials(
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file, device))
+    name_odd_segments(study.person, file)
     confront_segments(subject, file)
     size = TrialInputs(mass=study.mass, height=study.height, age=study.person.age, mass_option=f"mass in {file}")
     check_trial(size)

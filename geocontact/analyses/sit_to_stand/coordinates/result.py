@@ -32,9 +32,10 @@ from geocontact.data.motion import Course
 from geocontact.data.plausible import Plausible
 from geocontact.data.units import m
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.recordings.described_person import OVER_HIPS
 from geocontact.standing_up.chain import COORDINATES, Subject
 from geocontact.standing_up.movements import TASKS, contradiction, hip_height, movements_of
-from geocontact.standing_up.person_segments import SHARES
+from geocontact.standing_up.person_segments import SHARES, to_proximal
 from geocontact.standing_up.stance import JERK, SIZES, off_the_foot, smooth, stances
 from geocontact.trial_checks.body_checks import LEG_OFF
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade
@@ -173,8 +174,8 @@ class StandingCoordinatesResult(Result):
         lines += [f'{name} = {{ value = {size:.6g}, unit = "{NOISE_UNITS[name]}" }}' for name, size in SIZES.items()]
         if o.leg != "both":
             lines += ["", "[weights]", *(f"{name} = {size:.6g}" for name, size in JERK.items())]
-        for segment, own in self.given.moved.own.items():
-            lines += ["", f"[person.{segment}]"]
+        for segment, own in to_proximal(self.given.moved.own, self.height, "male").items():
+            lines += ["", f"[person.segments.{OVER_HIPS if segment == 'trunk' else segment}]"]
             lines += [f'{key} = {{ value = {value:.6g}, unit = "{UNITS[key]}" }}' for key, value in own.items()]
         files = [f'coordinates = "{ANGLES}"']
         files += ['plates = "plates.mot"', 'feet = "feet_force"'] if on_plates else []
