@@ -15,7 +15,14 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, HINGES, UPRIGHT, doubt_bending, doubt_torques
+from geocontact.analyses.sit_to_stand.recorded_beside import (
+    ANGLES,
+    HINGES,
+    UPRIGHT,
+    doubt_bending,
+    doubt_hinges,
+    doubt_torques,
+)
 from geocontact.analyses.sit_to_stand.trial_recordings import (
     FEWEST,
     Times,
@@ -183,6 +190,7 @@ def channels_of(
     require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
     doubt_bending(files.coordinates, chain, q, hip_height(subject, q))
+    doubt_hinges(files.coordinates, q[:, ANGLES], q[:, len(COORDINATES) :])
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = plates_of_trial(files, place, time, c3d_unit, turn)
     if files.task == "stance" and feet is not None:
