@@ -405,6 +405,10 @@ tz = { value = 30, unit = "N/mm" }
 rx = { value = 0.4, unit = "N m/deg" }
 ry = { value = 0.4, unit = "N m/deg" }
 rz = { value = 0.4, unit = "N m/deg" }
+[[free]]
+body = "insert"
+settles = ["ty"]
+forces = "a.csv"
 """,
         {
             r"(bodies|pairs) \d+ name": ("number", "text"),
