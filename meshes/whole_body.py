@@ -89,15 +89,15 @@ def write_plates(folder: Path, time: np.ndarray, loads: dict[str, np.ndarray]) -
     write_storage(folder / "plates.mot", time, names, np.hstack(values), title="Plates, synthetic", degrees=False)
 
 
-def main(folder: Path = HERE / "whole_body") -> None:
-    """Write the files."""
+def main(folder: Path = HERE / "whole_body", sample: Path = SAMPLE, trial: str = "T1") -> None:
+    """Write the files of a trial."""
     folder.mkdir(parents=True, exist_ok=True)
-    table, subject = read_table(SAMPLE / "T1_coordinates.sto"), Subject()
+    table, subject = read_table(sample / f"{trial}_coordinates.sto"), Subject()
     q = np.column_stack([table.column(name) for name in COORDINATES])
     q[:, 2:] = np.radians(q[:, 2:])
     model = whole_body(subject)
     write_body(folder, model, table.time, values_of(model, subject, q, HEADING, np.zeros((len(q), 3))))
-    own, loads = read_table(SAMPLE / "T1_plates.mot"), {}
+    own, loads = read_table(sample / f"{trial}_plates.mot"), {}
     for name in ("feet", "chair"):
         kinds = (f"{name}_force_v", f"{name}_force_p", f"{name}_torque_")
         force, place, moment = (np.column_stack([own.column(f"{of}{a}") for a in "xyz"]) for of in kinds)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.body_segments import ADULT, BodySegments, Sex, body_segments
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import TALL
+from geocontact.io.recordings.described_person import OVER_HIPS, DescribedPerson
 
 SUM = 0.01
 """Share of body mass by which own masses of all segments may differ from it."""
@@ -22,6 +23,8 @@ OFF_CENTRE = 0.15
 SHANK = (0.26, 0.74)
 """Parts of its length from the knee that the mass centre of a shank may be: a cone's is 0.25 from its base, and the
 residual limb is cut off a frustum."""
+MORE = 1.01
+"""Factor by which an own value is changed to see whether anything depends on it."""
 LIGHTEST, SHORTEST = 35.0, 1.3
 """Body mass [kg] and height [m] below which an adult may be a child, whose age is missing or in months."""
 
@@ -43,6 +46,48 @@ def doubt_value(where: str, key: str, value: float, usual: float, length: float,
     if not least <= share <= most:
         what = f"{where}: its {key} is {share:.2g} {of}"
         reserve(f"{what}: is it in its unit, of one side, and of this person?", cause=True)
+
+
+def doubt_centre(where: str, centre: float, usual: float, end: str) -> None:
+    """A reservation for a mass centre [share of the length] far from the table's, as from the other end."""
+    if abs(centre - usual) > OFF_CENTRE and centre <= WITHIN["centre"]:
+        what = f"its centre is at {centre:.2f} of its length, {usual:.2f} in the table"
+        reserve(f"{where}: {what}: is it from the {end}?", cause=True)
+
+
+def name_unused(at: tuple[Path | str, str], names: Sequence[str], command: str, why: str = "") -> None:
+    """One reservation that names keys of a person which a command does not use; none without names."""
+    if names:
+        listed = ", ".join(f"`{name}`" for name in names)
+        are = "are" if len(names) > 1 else "is"
+        reserve(f"{at[0]} {at[1]}: {listed} {are} not used by {command}" + (f"; {why}" if why else ""))
+
+
+def stated_of_body(person: DescribedPerson) -> list[str]:
+    """Age and own values of segments as they are written, for a command that needs no segments."""
+    every = [f"segments.{name}" for name, values in person.segments.items() if values.stated]
+    return ([] if person.age is None else ["age"]) + every
+
+
+def unused_values(person: DescribedPerson, mass: float, used: Callable[[BodySegments], Sequence[float]]) -> list[str]:
+    """Own values of segments that change nothing a command uses, as they are written; a segment alone if all are.
+
+    Parameters
+    ----------
+    used
+        What the command takes of the segments. A value of which one hundredth more leaves that as it is is not used.
+    """
+
+    def taken(own: Mapping[str, Mapping[str, float]]) -> list[float]:
+        return list(used(body_segments(person.sex, person.age, mass=mass, height=person.height, own=own)))
+
+    own, found = person.own, [f"segments.{OVER_HIPS}"] if person.over_hips else []
+    before = taken(own)
+    for name, values in own.items():
+        idle = [k for k, v in values.items() if taken(own | {name: {**values, k: MORE * v}}) == before]
+        whole = len(idle) == len(values)
+        found += [f"segments.{name}"] if whole else [f"segments.{name}.{key}" for key in idle]
+    return found
 
 
 def doubt_age(at: tuple[Path | str, str], sex: Sex, age: float | None, mass: float, height: float | None) -> None:
@@ -119,8 +164,5 @@ def person_segments(
         for key, value in values.items():
             table = usual[name].mass * mass if key == "mass" else scale * usual[name].length
             doubt_value(f"{where} {name}", key, value, table, found[name].length, beside)
-        centre, known = found[name].centre, usual[name].centre
-        if abs(centre - known) > OFF_CENTRE and centre <= WITHIN["centre"]:
-            what = f"its centre is at {centre:.2f} of its length, {known:.2f} in the table"
-            reserve(f"{where} {name}: {what}: is it from the {usual[name].ends[0]}?", cause=True)
+        doubt_centre(f"{where} {name}", found[name].centre, usual[name].centre, usual[name].ends[0])
     return found

@@ -15,11 +15,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from geocontact.data.body_segments import ADULT, BodySegments, Sex, body_segments
+from geocontact.data.body_segments import ADULT, SEGMENTS, BodySegments, Sex, body_segments
 
 LEG = ("foot", "shank", "thigh")
 """Segments of which there are two."""
-SEGMENTS = (*LEG, "trunk")
 VALUES = ("mass", "length", "centre", "gyration")
 
 
@@ -86,6 +85,43 @@ def _over_hips(body: BodySegments, table: Mapping[str, PersonSegment]) -> tuple[
     own = {name: (body[name].radii[1] * body[name].length) ** 2 + (place[name] - centre) ** 2 for name in tops}
     length = tall * table["trunk"].length
     return centre / length, math.sqrt(sum(mass[name] * own[name] for name in tops) / whole) / length
+
+
+def from_proximal(own: Mapping[str, Mapping[str, float]], height: float, sex: Sex) -> dict[str, dict[str, float]]:
+    """Own values as `segments_of` takes them, of segments that count from their proximal ends.
+
+    The heel is as far behind the ankle as both tables have the foot's mass centre from the one and from the other.
+
+    Parameters
+    ----------
+    own
+        `VALUES` of thigh and shank from the upper joint, of the foot from the heel, of the trunk, with head and arms,
+        from the hips [kg, m].
+    height
+        Of the body, for lengths that are not among them [m].
+    """
+    return _turned(own, height, sex, 1.0)
+
+
+def to_proximal(own: Mapping[str, Mapping[str, float]], height: float, sex: Sex) -> dict[str, dict[str, float]]:
+    """Own values that count from proximal ends, of those that `segments_of` takes: the inverse of `from_proximal`."""
+    return _turned(own, height, sex, -1.0)
+
+
+def _turned(
+    own: Mapping[str, Mapping[str, float]], height: float, sex: Sex, sign: float
+) -> dict[str, dict[str, float]]:
+    """With centres of thigh and shank from their other ends, and those of the foot from ankle (1) or heel (-1)."""
+    found = {name: dict(values) for name, values in own.items()}
+    for name, values in found.items():
+        if "centre" in values and name in LEG:
+            length = values.get("length", SHARES[sex][name].length * height)
+            behind = SEGMENTS[sex][name].centre - SHARES[sex][name].centre
+            if name == "foot":
+                values["centre"] -= sign * behind * length
+            else:
+                values["centre"] = length - values["centre"]
+    return found
 
 
 def segments_of(

@@ -199,13 +199,17 @@ thigh = "t02_thigh"
     ),
     "standing": Description(
         read_standing_study,
-        """mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
-height = { value = 1.75, unit = "m" }
-person = { sex = "female", age = { value = 9, unit = "years" }, foot = { gyration = { value = 5, unit = "cm" } } }
+        """height = { value = 1.75, unit = "m" }
 exoskeleton = true
 device = "a.csv"
 free = ["a"]
 tracks = ["b"]
+[person]
+mass = { value = 70, unit = "kg", source = "scale", note = "with shoes" }
+sex = "female"
+age = { value = 9, unit = "years" }
+foot = { gyration = { value = 5, unit = "cm" } }
+segments.shank = { centre = { value = 5, unit = "cm" } }
 [masses]
 shank = { value = 3, unit = "kg" }
 [straps]
@@ -401,6 +405,10 @@ tz = { value = 30, unit = "N/mm" }
 rx = { value = 0.4, unit = "N m/deg" }
 ry = { value = 0.4, unit = "N m/deg" }
 rz = { value = 0.4, unit = "N m/deg" }
+[[free]]
+body = "insert"
+settles = ["ty"]
+forces = "a.csv"
 """,
         {
             r"(bodies|pairs) \d+ name": ("number", "text"),

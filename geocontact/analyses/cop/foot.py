@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.analyses.cop.feet import (
-    TOGETHER,
+    BESIDE,
     Carrier,
     bodies_by_foot,
     floor_of,
@@ -23,34 +22,25 @@ from geocontact.analyses.cop.feet import (
     seen_from_first,
 )
 from geocontact.analyses.cop.options import CopOptions
+from geocontact.analyses.cop.plates import plates_under
 from geocontact.analyses.frame.bodies import warn_of_inner_surfaces
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.ground_words import LEVEL, plane_or_stairs
-from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
-from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import blocks, parts, release, room
 from geocontact.data.motion import MATRIX, Motion, poses_in_parts
 from geocontact.data.multibody.force_plate import ForcePlate
-from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.plausible import FOOT_LAW, numbers_in
-from geocontact.data.sides import stem_and_side
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.geometry.surface import Surface
 from geocontact.identify.signals.filters import UNEVEN, zero_lag
 from geocontact.io.mesh.meshes import read_mesh
-from geocontact.io.mocap.force_plates import plate_named, read_force_plates
-from geocontact.io.motion.poses import read_pose
 from geocontact.io.opensim.osim import bodies_at_rest, read_joint
 from geocontact.io.recordings.spheres import LawFile, SphereTable, read_law
-from geocontact.io.text.results import frame_of
-from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.ground import Ground, Sheet, Stairs, ground_of_surface
 from geocontact.loads.opensim_law import OpenSimLaw
-from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
 from geocontact.loads.sole_law import law_of_sole
 from geocontact.loads.sphere_set import SoleLaw, SphereSet
-from geocontact.trial_checks.recorded import UP, FootPlate, TrialInputs
 
 
 def smoothed_motion(motion: Motion, cutoff: float | None, file: Path) -> Motion:
@@ -223,9 +213,6 @@ def _check_sizes(o: CopOptions, law: SoleLaw) -> None:
             reserve(f"force law: {name}: {doubt}")
 
 
-AXES = "xyz"
-
-
 def up_of(ground: Ground) -> Float[np.ndarray, " 3"] | None:
     """Which way is up on a plane, on stairs and on a sheet; None on a closed mesh, which does not say."""
     if isinstance(ground, HalfSpace):
@@ -233,66 +220,9 @@ def up_of(ground: Ground) -> Float[np.ndarray, " 3"] | None:
     return np.asarray(ground.up, float) if isinstance(ground, Stairs | Sheet) else None
 
 
-def chosen_plate(o: CopOptions, up: Float[np.ndarray, " 3"] | None) -> ForcePlate | None:
-    """The plate to compare with, in our frame, in which `up` is upwards; None where none is asked for."""
-    if o.compare is None:
-        return None
-    plates = turned_plates(
-        read_force_plates(o.compare, o.c3d_unit), turn_of(o.axes), o.compare, UP if up is None else up
-    )
-    plate = plate_named(plates, o.plate, o.compare, "`plate`")
-    add_input("`compare`", o.compare, plate=plate.name)
-    if o.plate_pose is None:
-        return plate
-    pose = read_pose(o.plate_pose)
-    add_input("`plate_pose`", o.plate_pose)
-    wrench = plate.wrench.seen_from(pose, "ground")
-    corners = None if plate.corners is None else pose.apply(plate.corners)
-    point, normal = pose.apply(plate.point), pose.rotation.apply(plate.normal)
-    return replace(plate, wrench=wrench, point=point, normal=normal, corners=corners)
-
-
-def plate_curves(
-    plate: ForcePlate, time: Float[np.ndarray, " t"], ours: CentreOfPressure, o: CopOptions
-) -> PlateCurves:
-    """The plate at our times within its own; InputError where there are none, or its normal is not that of ours."""
-    path = o.compare or Path()
-    inside = np.flatnonzero((time >= plate.time[0]) & (time <= plate.time[-1]))
-    if not len(inside):
-        what = f"runs from {plate.time[0]:g} to {plate.time[-1]:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
-        raise InputError(path, plate.name, what, "shift the clock of one of them")
-    if not same_way_up(ours.normal, plate.normal):
-        mean = np.nanmean(ours.normal, axis=0)
-        mine, theirs = (", ".join(f"{value:.2f}" for value in n) for n in (mean, plate.normal))
-        what = f"its normal is ({theirs}), that of our ground ({mine})"
-        raise InputError(path, plate.name, what, "give the pose of the plates' frame in ours with `plate_pose`")
-    return load_on_plate(inside, plate.at(time[inside]), plate.point, plate.normal, o.gate)
-
-
-def comparison_table(time: Float[np.ndarray, " t"], ours: CentreOfPressure, plate: PlateCurves) -> pd.DataFrame:
-    """Ours, the plate's and the difference (ours - plate), one row per frame within the plate's recording."""
-    at = plate.frames
-    columns: dict[str, Float[np.ndarray, " f"]] = {"time [s]": time[at]}
-    pairs = [(f"force_{axis} [N]", ours.wrench.force[at, k], plate.force[:, k]) for k, axis in enumerate(AXES)]
-    pairs += [(f"cop_{axis} [m]", ours.centre[at, k], plate.centre[:, k]) for k, axis in enumerate(AXES)]
-    pairs.append(("free_moment [N m]", ours.free_moment[at], plate.free_moment))
-    for name, mine, theirs in pairs:
-        columns |= {name: mine, f"plate_{name}": theirs, f"difference_{name}": mine - theirs}
-    return frame_of(columns)
-
-
-def root_mean_squares(table: pd.DataFrame) -> dict[str, float | None]:
-    """Root mean square of each difference over the rows that have it; None where no row has."""
-    differences = {str(name): table[name].dropna() for name in table.columns if str(name).startswith("difference_")}
-    return {
-        name.replace("difference_", "rms_"): float(np.sqrt(np.mean(values**2))) if len(values) else None
-        for name, values in differences.items()
-    }
-
-
 @dataclass(frozen=True)
 class Foot:
-    """A sole with its law and its motion over the ground, and a force plate beside it where there is one.
+    """A sole with its law and its motion over the ground, and force plates beside it where there are some.
 
     Parameters
     ----------
@@ -302,6 +232,8 @@ class Foot:
         All spheres in the frame of the first body, and its motion: those of another body as in the first frame.
     law
         Of all spheres.
+    plates
+        Plate under each foot, by the foot's name.
     carriers
         Each body with its own spheres and motion, in the order of the spheres; of one foot or of several.
     weight
@@ -313,7 +245,7 @@ class Foot:
     law: SoleLaw | OpenSimLaw
     motion: Motion
     ground: Ground
-    plate: ForcePlate | None
+    plates: Mapping[str, ForcePlate]
     carriers: tuple[Carrier, ...]
     weight: float
 
@@ -343,37 +275,20 @@ def read(o: CopOptions) -> Foot:
     carriers = tuple(Carrier(*each) for each in zip(names, soles, motions, strict=True))
     sole, motion = seen_from_first(carriers), motions[0]
     up = up_of(ground)
-    plate = chosen_plate(o, up)
-    if plate is not None and o.compare is not None:
-        _check(sole, motion, plate, o, up)
-        plate = smoothed_plate(plate, o.force_cutoff, o.compare)
-    return Foot(o.spheres.name, sole, law, motion, ground, plate, carriers, weight)
+    plates = {
+        name: smoothed_plate(plate, o.force_cutoff, o.compare or o.motion)
+        for name, plate in plates_under(o, carriers, up).items()
+    }
+    return Foot(o.spheres.name, sole, law, motion, ground, plates, carriers, weight)
 
 
 def _require_one_foot(o: CopOptions, feet: int) -> None:
     """InputError for what is of one foot where there are several."""
-    for name, given in (("toe", o.toe), ("stances", o.stances), ("compare", o.compare)):
+    for name, given in (("toe", o.toe), ("stances", o.stances)):
         if feet > 1 and given:
-            raise InputError("", f"`{name}`", f"is of one foot, `body` names {feet}", "compute one foot at a time")
-
-
-def _check(
-    sole: SphereSet, motion: Motion, plate: ForcePlate, o: CopOptions, up: Float[np.ndarray, " 3"] | None
-) -> None:
-    """The plate against the foot: heel and toes lie below the two spheres of the sole that are farthest apart."""
-    apart = np.linalg.norm(sole.centre[:, None] - sole.centre[None], axis=2)
-    ends = np.unravel_index(int(np.argmax(apart)), apart.shape)
-    above = plate.normal if up is None else up
-    places = np.stack(
-        [motion.poses.apply(sole.centre[k]).reshape(-1, 3) - sole.radius[k] * above for k in ends], axis=1
-    )
-    foot = MarkerTrajectories(motion.time, places, ("heel", "toe"), str(o.motion))
-    side = stem_and_side((o.body or "").split(TOGETHER)[0].strip())[1]
-    if side:
-        foot = replace(foot, names=tuple(f"{side}{name}" for name in foot.names))
-    on = FootPlate(plate, str(o.compare), side)
-    turn = turn_of(o.axes)
-    check_trial(TrialInputs(foot, plates=(on,), up=above, turn=turn, on_sole=True))
+            one, *others = (o.body or "").split(BESIDE)
+            remedy = f"give `body` {one}, then run it again with {BESIDE.join(others)}"
+            raise InputError("", f"`{name}`", f"is of one foot, `body` names {feet}", remedy)
 
 
 def _require_ground(o: CopOptions) -> None:

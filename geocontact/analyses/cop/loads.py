@@ -40,8 +40,10 @@ class FootLoads(Result):
         Resultant, centre of pressure and free moment of each foot where there are several.
     zones
         Sum of the normal forces of each zone, filtered where the forces are.
-    plate, comparison
-        What a force plate shows, and the differences to it; None without a plate.
+    plates
+        What the force plate under each foot shows, by the foot's name.
+    comparison
+        The differences to it, with a column `foot` where there are several; None without a plate.
     """
 
     options: CopOptions
@@ -52,8 +54,13 @@ class FootLoads(Result):
     axis: FootAxis | None
     feet: dict[str, CentreOfPressure]
     zones: dict[str, Float[np.ndarray, " t"]]
-    plate: PlateCurves | None
+    plates: dict[str, PlateCurves]
     comparison: pd.DataFrame | None
+
+    @property
+    def plate(self) -> PlateCurves | None:
+        """What the plate shows where there is one foot; None without a plate and with several feet."""
+        return None if self.feet else next(iter(self.plates.values()), None)
 
 
 def loads_table(r: FootLoads) -> pd.DataFrame:

@@ -108,7 +108,8 @@ class CopOptions(Options):
     compare
         Ground reactions of force plates (.mot .sto .c3d .csv) to compare with.
     plate
-        Name or number of the plate; needed when there are several.
+        Name or number of the plate; needed when there are several. Of several feet one for each, joined by commas; by
+        default the plates that lie under each foot.
     c3d_unit
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     axes

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull
 
 from geocontact.analyses.cop.figure import PERCENT, stance_curves
-from geocontact.analyses.cop.foot import root_mean_squares
 from geocontact.analyses.cop.loads import SHARE, FootLoads, along_foot, mean_normal, reach_of_centre
+from geocontact.analyses.cop.plates import compared, root_mean_squares
 from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.frame_blocks import blocks, release, worked
@@ -195,15 +196,17 @@ def headline(r: FootLoads) -> list[str]:
 
 def _beside(r: FootLoads) -> list[str]:
     """Difference to the plate as one distance and one force."""
-    if r.comparison is None:
-        return []
-    rms = root_mean_squares(r.comparison)
-    force = [rms[f"rms_force_{axis} [N]"] for axis in AXES]
-    centre = [rms[f"rms_cop_{axis} [m]"] for axis in AXES]
-    told = [f"the force differs by {_length(force):.3g} N"]
-    if None not in centre:
-        told.append(f"the centre of pressure by {_length(centre) * MM:.3g} mm")
-    return [f"Compared with the force plate {' and '.join(told)} (root mean square)."]
+    lines = []
+    for name, table in compared(r.comparison).items():
+        rms = root_mean_squares(table)
+        force = [rms[f"rms_force_{axis} [N]"] for axis in AXES]
+        centre = [rms[f"rms_cop_{axis} [m]"] for axis in AXES]
+        told = [f"the force differs by {_length(force):.3g} N"]
+        if None not in centre:
+            told.append(f"the centre of pressure by {_length(centre) * MM:.3g} mm")
+        whose = f"{name}: compared" if name else "Compared"
+        lines.append(f"{whose} with the force plate {' and '.join(told)} (root mean square).")
+    return lines
 
 
 def _at(time: float) -> str:
@@ -364,15 +367,17 @@ def _upward(r: FootLoads) -> int | None:
 
 def _comparison(r: FootLoads) -> list[Table]:
     """Every quantity's difference to the plate: root mean square, mean, largest."""
-    if r.comparison is None:
-        return []
+    return [_differences(name, table) for name, table in compared(r.comparison).items()]
+
+
+def _differences(foot: str, table: pd.DataFrame) -> Table:
     rows = []
-    for name in r.comparison.columns:
+    for name in table.columns:
         if not str(name).startswith("difference_"):
             continue
         label, _, unit = str(name).removeprefix("difference_").removesuffix("]").partition(" [")
         per, unit = (MM, "mm") if unit == "m" else (1.0, unit)
-        values = _plain(r.comparison[name].dropna().to_numpy(float)) * per
+        values = _plain(table[name].dropna().to_numpy(float)) * per
         told = (
             [f"{np.sqrt(np.mean(values**2)):.3g}", f"{values.mean():.3g}", f"{values[np.argmax(np.abs(values))]:.3g}"]
             if len(values)
@@ -380,7 +385,8 @@ def _comparison(r: FootLoads) -> list[Table]:
         )
         rows.append((label.replace("cop_", "centre of pressure ").replace("_", " "), unit, *told, str(len(values))))
     header = ("", "unit", "root mean square", "mean", "largest", "frames")
-    return [Table("Difference to the force plate (spheres − plate)", header, rows)]
+    of = f"{foot}: difference" if foot else "Difference"
+    return Table(f"{of} to the force plate (spheres − plate)", header, rows)
 
 
 def _plain(values: Float[np.ndarray, " k"]) -> Float[np.ndarray, " k"]:

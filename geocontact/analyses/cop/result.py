@@ -26,7 +26,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.analyses.cop.feet import Carrier, doubt_weight, spheres_by_foot
 from geocontact.analyses.cop.figure import cop_figure
-from geocontact.analyses.cop.foot import Foot, comparison_table, low_passed, plate_curves, read, root_mean_squares
+from geocontact.analyses.cop.foot import Foot, low_passed, read
 from geocontact.analyses.cop.loads import (
     NAMES,
     SHARE,
@@ -40,6 +40,7 @@ from geocontact.analyses.cop.loads import (
 )
 from geocontact.analyses.cop.options import CopOptions
 from geocontact.analyses.cop.page import cop_page, load_curves
+from geocontact.analyses.cop.plates import FOOT, compared, comparison_table, plate_curves, root_mean_squares
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT
@@ -139,8 +140,12 @@ def run(foot: Foot, o: CopOptions) -> CopResult:
         name: centre_of(loads.chosen(own), o.point, o.gate, smooth if o.force_cutoff else None)
         for name, own in several.items()
     }
-    curves = None if foot.plate is None else plate_curves(foot.plate, time, centre, o)
-    comparison = None if curves is None else comparison_table(time, centre, curves)
+    ours = {name: feet.get(name, centre) for name in foot.plates}
+    curves = {name: plate_curves(plate, time, ours[name], o) for name, plate in foot.plates.items()}
+    beside_plates = {name: comparison_table(time, ours[name], own) for name, own in curves.items()}
+    if feet:
+        for name, table in beside_plates.items():
+            table.insert(0, FOOT, name)
     result = CopResult(
         options=o,
         foot=foot,
@@ -150,8 +155,8 @@ def run(foot: Foot, o: CopOptions) -> CopResult:
         axis=None if o.toe is None else _axis(foot, o.toe, o.foot_length),
         feet=feet,
         zones={zone: _zone_force(loads, own, smooth) for zone, own in foot.sole.zones.items()},
-        plate=curves,
-        comparison=comparison,
+        plates=curves,
+        comparison=pd.concat(beside_plates.values(), ignore_index=True) if beside_plates else None,
     )
     _summarise(result)
     return result
@@ -222,8 +227,8 @@ def _summarise(r: CopResult) -> None:
     for name, c in r.feet.items():
         say(f"{name}: normal force up to {c.pressing.max():.1f} N")
     _report_foot(r)
-    if r.comparison is not None:
-        _report_comparison(r, root_mean_squares(r.comparison))
+    for name, table in compared(r.comparison).items():
+        _report_comparison(name, table, root_mean_squares(table))
 
 
 def _law_of_sole(law: SoleLaw) -> dict[str, object]:
@@ -278,11 +283,11 @@ def _one_or_all(values: Float[np.ndarray, " n"]) -> float | list[float]:
     return found[0] if len(found) == 1 else found
 
 
-def _report_comparison(r: CopResult, differences: dict[str, float | None]) -> None:
-    rows = 0 if r.comparison is None else len(r.comparison)
-    note("comparison", {"rows": rows, **differences})
+def _report_comparison(foot: str, table: pd.DataFrame, differences: dict[str, float | None]) -> None:
+    note(f"comparison {foot}".strip(), {"rows": len(table), **differences})
     shown = ", ".join(f"{name[4:]} {value:.4g}" for name, value in differences.items() if value is not None)
-    say(f"root mean square difference to the plate: {shown or 'nothing to compare above the gate'}")
+    of = f"{foot}: " if foot else ""
+    say(f"{of}root mean square difference to the plate: {shown or 'nothing to compare above the gate'}")
 
 
 centre_of_pressure = Job("cop", CopOptions, read, run)

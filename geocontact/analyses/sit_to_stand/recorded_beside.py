@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.motion.checked_trial import check_trial
+from geocontact.data.errors import InputError
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.agreement import clock_words, lag_of, likely_cause
 from geocontact.identify.signals.filters import zero_lag
@@ -54,6 +55,28 @@ the trunk is above the thighs."""
 LOWERED = 0.2
 """m, by which the hip of who sits down or squats comes down at least, a low chair's seat being 0.4 m high; that of who
 walks moves by 0.05 m, and its knee is bent by 60 degrees in swing (Perry, Gait Analysis, 1992)."""
+
+
+BESIDE, OTHER = 20.0, 60.0
+"""Degrees (root mean square) from its joint at which a hinge is doubted, and cannot be worn: synthetic ones of this
+model are off by 1, and an angle of 2 degrees read in radians by 110; invented."""
+
+
+def doubt_hinges(file: Path, joints: Float[np.ndarray, "t j"], hinges: Float[np.ndarray, "t h"]) -> None:
+    """InputError for hinges of an exoskeleton that cannot be beside the joints [rad], a warning for those far off.
+
+    Nothing where there are no hinges. Of such angles no motion can be found: a search would run until its time is over.
+    """
+    if not hinges.shape[1]:
+        return
+    off = np.degrees(np.sqrt(np.mean((hinges - joints) ** 2, axis=0)))
+    for name, joint, most in zip(EXO_JOINTS, JOINTS, off, strict=True):
+        what = f"{name} is {most:.0f} degrees (root mean square) from {joint}"
+        remedy = "are its unit, sign and zero those of the joint beside it?"
+        if most > OTHER:
+            raise InputError(file, name, what, remedy)
+        if most > BESIDE:
+            reserve(f"{file}: {what}: {remedy}", cause=True)
 
 
 def doubt_bending(

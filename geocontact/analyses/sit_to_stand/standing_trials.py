@@ -15,7 +15,14 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
-from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, HINGES, UPRIGHT, doubt_bending, doubt_torques
+from geocontact.analyses.sit_to_stand.recorded_beside import (
+    ANGLES,
+    HINGES,
+    UPRIGHT,
+    doubt_bending,
+    doubt_hinges,
+    doubt_torques,
+)
 from geocontact.analyses.sit_to_stand.trial_recordings import (
     FEWEST,
     Times,
@@ -32,7 +39,13 @@ from geocontact.analyses.sit_to_stand.trial_recordings import (
     wrench_at,
 )
 from geocontact.analyses.sit_to_stand.worn_exoskeleton import worn_device, worn_sites
-from geocontact.analyses.sit_to_stand.worn_trials import confront_segments, doubt_friction, joint_torques, person_of
+from geocontact.analyses.sit_to_stand.worn_trials import (
+    confront_segments,
+    doubt_friction,
+    joint_torques,
+    name_odd_segments,
+    person_of,
+)
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.model import Multibody
@@ -66,6 +79,7 @@ def standing_trials(
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file, device))
+    name_odd_segments(study.person, file)
     confront_segments(subject, file)
     size = TrialInputs(mass=study.mass, height=study.height, age=study.person.age, mass_option=f"mass in {file}")
     check_trial(size)
@@ -176,6 +190,7 @@ def channels_of(
     require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
     doubt_bending(files.coordinates, chain, q, hip_height(subject, q))
+    doubt_hinges(files.coordinates, q[:, ANGLES], q[:, len(COORDINATES) :])
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = plates_of_trial(files, place, time, c3d_unit, turn)
     if files.task == "stance" and feet is not None:

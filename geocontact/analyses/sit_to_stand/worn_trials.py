@@ -9,14 +9,15 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.person import SUM, doubt_age, doubt_value
+from geocontact.analyses.person import SUM, doubt_age, doubt_centre, doubt_value, name_unused
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import zero_lag
-from geocontact.io.recordings.standing_study import StandingStudy, StandingTrialFiles
+from geocontact.io.recordings.described_person import OVER_HIPS
+from geocontact.io.recordings.standing_study import StandingPerson, StandingStudy, StandingTrialFiles
 from geocontact.io.text.tables import read_table
 from geocontact.standing_up.chain import JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.person_segments import segments_of
+from geocontact.standing_up.person_segments import LEG, from_proximal, segments_of
 from geocontact.standing_up.worn_device import FRICTION_NAMES, WornDevice
 from geocontact.trial_checks.channel_checks import odd_rate
 
@@ -31,7 +32,21 @@ Used = Bool[np.ndarray, " t"]
 
 def person_of(study: StandingStudy) -> Subject:
     """Who is described, without the exoskeleton."""
-    return Subject(study.mass, study.height, sex=study.person.sex, own=study.person.own, age=study.person.age)
+    person = study.person
+    stated = {name: values for name, values in person.own.items() if name in LEG}
+    stated |= {"trunk": person.over_hips} if person.over_hips else {}
+    own = from_proximal(stated, study.height, person.sex) | person.former
+    return Subject(study.mass, study.height, sex=person.sex, own=own, age=person.age)
+
+
+def name_odd_segments(person: StandingPerson, study: Path) -> None:
+    """A warning for segments in the former spelling, and one for those that no chain of standing up has."""
+    unused = [f"segments.{name}" for name in person.own if name not in LEG]
+    name_unused((study, "[person]"), unused, "sit-to-stand", f"its head, arms and trunk are segments.{OVER_HIPS}")
+    if person.former:
+        tables = ", ".join(f"[person.{name}]" for name in person.former)
+        new = ", ".join(f"segments.{OVER_HIPS if name == 'trunk' else name}" for name in person.former)
+        reserve(f"{study} {tables}: former spelling, with centres from the lower joint; write {new}")
 
 
 def confront_segments(subject: Subject, study: Path) -> None:
@@ -54,6 +69,9 @@ def confront_segments(subject: Subject, study: Path) -> None:
         for key in values:
             value, table = getattr(segment, key), getattr(usual[name], key)
             doubt_value(f"{study} [person] {name}", key, value, table, segment.length, beside)
+        if "centre" in values:
+            shares = (each.centre / each.length for each in (segment, usual[name]))
+            doubt_centre(f"{study} [person] {name}", *shares, "ankle" if name == "foot" else "lower joint")
 
 
 def joint_torques(

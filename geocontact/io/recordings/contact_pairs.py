@@ -188,6 +188,8 @@ class DescribedFree(Document):
         Which come to rest: displacements tx, ty, tz of its point, turns R = Ry(ry) Rx(rx) Rz(rz).
     fx, fy, fz
         Force; it keeps its direction.
+    forces
+        Forces over time in place of these: table with fx, fy, fz, or the same behind the body's name (femur_fy).
     px, py, pz
         Point of the body, in its frame, that the force acts at.
     springs
@@ -200,6 +202,7 @@ class DescribedFree(Document):
     fx: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
     fy: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
     fz: Annotated[float, WithUnit(ALONG_AXIS)] = 0.0
+    forces: File | None = None
     px: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
     py: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
     pz: Annotated[float, WithUnit(PLACE_ON_BODY)] = 0.0
@@ -218,6 +221,8 @@ class DescribedFree(Document):
             if getattr(self, f"f{axis}") and f"t{axis}" not in self.settles:
                 what, remedy = f"has no effect: t{axis} is held", f"add t{axis} to settles, or leave it out"
                 raise refusal(what, remedy, at=(f"f{axis}",))
+            if getattr(self, f"f{axis}") and self.forces is not None:
+                raise refusal("stands beside forces over time", "keep one of them", at=(f"f{axis}",))
         return self
 
 

@@ -1,4 +1,4 @@
-"""A person in a description: sex, age, height, and own values of segments.
+"""A person in a description, of whatever system: sex, age, height, and own values of segments.
 
 [persons.P1]
 mass = { value = 31, unit = "kg" }
@@ -6,6 +6,10 @@ sex = "female"
 age = { value = 9, unit = "years" }
 height = { value = 1.36, unit = "m" }
 segments.upper_arm = { mass = { value = 0.9, unit = "kg" }, length = { value = 25, unit = "cm" } }
+
+A study of one person has `[person]` in place of `[persons.P1]`. Segments are those of one side between de Leva's ends
+and count from the proximal one, the foot from the heel; `head_arms_trunk` is one rigid body over the hips and counts
+from these upwards.
 """
 
 from __future__ import annotations
@@ -24,7 +28,9 @@ Mass = Annotated[float, WithUnit("kg"), Field(gt=0.0)]
 Age = Annotated[float, WithUnit(AGE)]
 Length = Annotated[float, WithUnit(LONG), Field(gt=0.0)]
 OWN = {"mass": Mass, **dict.fromkeys(("length", "centre", "gyration"), Length)}
-NAMES = tuple(SEGMENTS["male"])
+OVER_HIPS = "head_arms_trunk"
+"""Head, arms and trunk as one rigid body."""
+NAMES = (*SEGMENTS["male"], OVER_HIPS)
 
 
 class OwnSegment(Document):
@@ -37,7 +43,7 @@ class OwnSegment(Document):
     length
         Between de Leva's ends.
     centre
-        Mass centre from the proximal end; a study of standing up has it from the lower joint.
+        Mass centre from the proximal end, of a foot from the heel, of head_arms_trunk from the hips.
     gyration
         Radius of gyration across the long axis.
     """
@@ -65,7 +71,7 @@ class DescribedPerson(Document):
     height
         Body height, for lengths beside own values.
     segments
-        Own values by segment: head, trunk, upper_arm, forearm, hand, thigh, shank or foot.
+        Own values by segment: head, trunk, upper_arm, forearm, hand, thigh, shank, foot or head_arms_trunk.
     """
 
     sex: Sex = "male"
@@ -75,8 +81,14 @@ class DescribedPerson(Document):
 
     @property
     def own(self) -> dict[str, dict[str, float]]:
-        """Own values by segment, of those that have any."""
-        return {name: values for name, each in self.segments.items() if (values := each.stated)}
+        """Own values by segment of de Leva's table, of those that have any."""
+        return {name: v for name, each in self.segments.items() if (v := each.stated) and name != OVER_HIPS}
+
+    @property
+    def over_hips(self) -> dict[str, float]:
+        """Own values of head, arms and trunk as one body."""
+        body = self.segments.get(OVER_HIPS)
+        return {} if body is None else body.stated
 
     @model_validator(mode="after")
     def _require_segments(self) -> DescribedPerson:

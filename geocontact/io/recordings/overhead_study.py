@@ -114,7 +114,7 @@ class StudyPerson(DescribedPerson):
     height
         Body height, for lengths beside own values.
     segments
-        Own values by segment; `optimise` only, as `age`.
+        Own values by segment; `optimise` only, as `age`: the arm's are used.
     dominant
         Side of the dominant hand.
     upper_arm

@@ -1,7 +1,9 @@
 """Description of trials of standing up from a chair.
 
+    [person]
     mass = { value = 70, unit = "kg" }
     height = { value = 1.75, unit = "m" }
+    segments.shank = { length = { value = 42, unit = "cm" } }
 
     [noise]
     length = { value = 0.5, unit = "mm" }
@@ -23,6 +25,9 @@ chair's force is a load on the model. With `exoskeleton = true` a trial also has
 straps, whose force on the person is positive forwards: `time [s], normal [N]`, or the wrench.csv of a mat on a scan, x
 forwards. A list of files, such as mats in front and behind, has the sum of their forces. `shear [N]` in the thigh's is
 the measured force along it, which is compared with the predicted one.
+
+The person is that of `described_person`; `mass` and `height` may stand outside of `[person]`. Tables such as
+`[person.shank]`, whose centres count from the lower joint, are the former spelling.
 """
 
 from __future__ import annotations
@@ -33,7 +38,6 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import N_M, PERSON, TALL, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, mm
@@ -50,7 +54,7 @@ from geocontact.io.documents import (
     read_document,
     refusal,
 )
-from geocontact.io.recordings.described_person import OWN, Age, Mass
+from geocontact.io.recordings.described_person import OVER_HIPS, OWN, DescribedPerson, Mass
 
 TURNS = Unit("rad/s", "rad/s", 1.0)
 NOISE = {
@@ -158,32 +162,44 @@ class StandingTrialFiles(Document):
         return self
 
 
-class StandingPerson(Document):
-    """Whose segments the person has.
+class StandingPerson(DescribedPerson):
+    """The person.
 
     Parameters
     ----------
+    mass, height
+        Of the body, unless they stand outside of this table.
     sex
         Row of de Leva's table.
     age
         From 6 years on; below 18 masses are those of boys.
+    segments
+        Own values by segment: thigh, shank, foot, and head_arms_trunk.
     foot, shank, thigh, trunk
-        Own values in place of the table's: mass, of one leg; length; mass centre from the lower joint, of the foot from
-        the ankle forwards; radius of gyration about the mass centre. The trunk has head and arms, from the hips.
+        Former spelling of `segments`, with the mass centre from the lower joint, of the foot from the ankle forwards;
+        the trunk has head and arms, from the hips.
     """
 
-    sex: Sex = "male"
-    age: Age | None = None
+    mass: Annotated[float, WithUnit(PERSON)] | None = None
     foot: Annotated[Mapping[str, float], Some(OWN)] = {}
     shank: Annotated[Mapping[str, float], Some(OWN)] = {}
     thigh: Annotated[Mapping[str, float], Some(OWN)] = {}
     trunk: Annotated[Mapping[str, float], Some(OWN)] = {}
 
     @property
-    def own(self) -> dict[str, Mapping[str, float]]:
-        """Own values by segment."""
+    def former(self) -> dict[str, Mapping[str, float]]:
+        """Own values in the former spelling, by segment, from the lower joint."""
         given = {"foot": self.foot, "shank": self.shank, "thigh": self.thigh, "trunk": self.trunk}
         return {name: values for name, values in given.items() if values}
+
+    @model_validator(mode="after")
+    def _require_one_spelling(self) -> StandingPerson:
+        for name in self.former:
+            other = OVER_HIPS if name == "trunk" else name
+            if self.segments.get(other) is not None:
+                what = f"its values stand in segments.{other} as well"
+                raise refusal(what, f"keep segments.{other}, which counts from the proximal end", at=(name,))
+        return self
 
 
 class StandingStudy(Document):
@@ -191,12 +207,10 @@ class StandingStudy(Document):
 
     Parameters
     ----------
-    mass
-        Body mass.
-    height
-        Body height.
     person
         Sex and own values of segments; the men's table by default.
+    mass, height
+        Of the body; here or in `[person]`.
     exoskeleton
         Whether it was worn.
     device
@@ -219,9 +233,9 @@ class StandingStudy(Document):
         All trials.
     """
 
+    person: StandingPerson = StandingPerson()
     mass: Annotated[float, WithUnit(PERSON)]
     height: Annotated[float, WithUnit(TALL)]
-    person: StandingPerson = StandingPerson()
     exoskeleton: bool = False
     device: File | None = None
     masses: Annotated[Mapping[str, float], Some(Masses)] = {}
@@ -236,6 +250,20 @@ class StandingStudy(Document):
     def one_leg(self) -> bool:
         """Whether its trials are stances of walking."""
         return self.trials[0].task == "stance"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _take_size(cls, content: object) -> object:
+        """Mass and height of `[person]` in the place where the study has them."""
+        if not isinstance(content, dict) or "person" not in content:
+            return content
+        person = content["person"]
+        if not isinstance(person, dict):
+            raise refusal("is not a table", f"write {', '.join(StandingPerson.by_key())}", at=("person",))
+        for key in ("mass", "height"):
+            if key in person and key in content:
+                raise refusal("stands outside of [person] as well", "keep one of them", at=("person", key))
+        return content | {key: person[key] for key in ("mass", "height") if key in person}
 
     @model_validator(mode="after")
     def _require_worn(self) -> StandingStudy:

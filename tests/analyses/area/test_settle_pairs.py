@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import geocontact as gc
 from geocontact.analyses.area.pairs.rest import SettlePairsResult
+from geocontact.analyses.area.pairs.virtual_work import imbalance
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.view.page.content import Scene, Table
 from meshes.simple_shapes import cup, sphere
@@ -226,6 +227,7 @@ def test_a_frame_without_rest_has_no_numbers(tmp_path: Path) -> None:
     result = settle(on_plate(tmp_path, DOWN, (500, 20, 0)))
     assert result.resting.converged.tolist() == [True, True, False]
     assert any("1 of 3 frames did not come to rest (at 2 s)" in line for line in result.warnings)
+    assert any("at 2 s 300 N of 300 N on ball remained after " in line for line in result.warnings)
     for name in ("bodies", "contacts", "loads"):
         numbers = result.table(name).drop(columns=["pair", "on", "at_rest", "ball_residual [N]"], errors="ignore")
         assert numbers.iloc[1].notna().all() and numbers.iloc[2].drop("time [s]").isna().all(), name
@@ -314,6 +316,82 @@ def test_a_light_body_beside_a_heavy_one_is_not_taken_for_at_rest(tmp_path: Path
     body = DOWN.replace('"ball"', '"light"').replace("-300", "-1")
     with pytest.raises(InputError, match="no layer presses on light wherever its force leads"):
         settle(described(tmp_path, f"{text}{light}{pair}\n{body}"))
+
+
+def loaded(folder: Path, rows: dict[str, list[float]], settles: str = '"ty"', constant: str = "") -> Path:
+    """A ball on a plate with forces from a table."""
+    lines = [", ".join(rows), *(", ".join(map(str, row)) for row in zip(*rows.values(), strict=True))]
+    written(folder / "forces.csv", "\n".join(lines) + "\n")
+    free = f'[[free]]\nbody = "ball"\nsettles = [{settles}]\nforces = "forces.csv"\n{constant}'
+    return on_plate(folder, free)
+
+
+@pytest.mark.parametrize("column", ["fy", "ball_fy"])
+def test_forces_over_time_are_those_of_single_runs(tmp_path: Path, column: str) -> None:
+    """Of a table in kN at other times than the motion's: 200, 300 and 400 N at 0, 1 and 2 s."""
+    table = {"time [s]": [-1.0, 3.0], f"{column} [kN]": [-0.1, -0.5]}
+    result = settle(loaded(tmp_path, table))
+    np.testing.assert_allclose(result.loads["plate"][:, 1], [-200.0, -300.0, -400.0], rtol=1e-4)
+    single = settle(on_plate(tmp_path, DOWN))
+    assert result.resting.coordinates("ball")[1, 1] == pytest.approx(single.resting.coordinates("ball")[1, 1], abs=1e-9)
+    assert not any("all of the layer" in line for line in result.warnings)
+    with unpictured():
+        out = Path(result.write(tmp_path / "out"))
+    assert "forces.csv" in (out / "run.json").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "said"),
+    [
+        ({"time [s]": [0, 1], "fy [N]": [-1, -1]}, {}, "runs from 0 to 1 s, the motion from 0 to 2 s"),
+        ({"time [s]": [0, 2], "force [N]": [-1, -1]}, {}, "no column fx, fy, fz or ball_fx, ball_fy, ball_fz"),
+        ({"time [s]": [0, 2], "fx [N]": [-1, -1]}, {}, "column 'fx' has no effect: tx of ball is held"),
+        ({"time [s]": [0, 2], "fy [N]": [0, 0]}, {}, "no force acts on ball"),
+        (
+            {"time [s]": [0, 2], "fy [N]": [-1, -1]},
+            {"constant": 'fy = { value = -3, unit = "N" }\n'},
+            "[[free]] 1 fy: stands beside forces over time; keep one of them",
+        ),
+    ],
+)
+def test_forces_over_time_that_cannot_be_are_refused(
+    tmp_path: Path, rows: dict[str, list[float]], more: dict[str, str], said: str
+) -> None:
+    with pytest.raises(InputError) as refused:
+        settle(loaded(tmp_path, rows, **more))
+    assert said in str(refused.value), refused.value
+
+
+def test_forces_balance_by_virtual_work(resting: SettlePairsResult) -> None:
+    """By hand from the written table: contacts and applied forces on each ball along the cup's y, 1 N of 900 apart."""
+    found = imbalance(resting.resting)
+    table = resting.table("contacts").set_index("pair")
+    up = TURN.apply([0.0, 1.0, 0.0])
+    on_cup, on_head = (
+        table.loc[[pair], ["fx [N]", "fy [N]", "fz [N]"]].to_numpy()[0] @ up for pair in ("head_cup", "ball_head")
+    )
+    left = max(abs(on_head - on_cup - 900.0) / abs(on_cup), abs(-on_head - 400.0) / abs(on_head))
+    assert found[0] == pytest.approx(left, rel=1e-3, abs=1e-7)
+    assert found.max() < 1e-3
+    spoilt = resting.resting
+    spoilt.wrenches["ball_head"][:, :3] *= 1.1
+    try:
+        spoilt.__dict__.pop("loads", None)
+        assert imbalance(spoilt)[0] == pytest.approx(0.1, rel=0.02)
+    finally:
+        spoilt.wrenches["ball_head"][:, :3] /= 1.1
+
+
+def test_a_layer_that_is_pressed_everywhere_is_doubted(tmp_path: Path) -> None:
+    """A cap of the ball, 2 mm about its lowest point, that the plate covers: no frame of the whole ball is so."""
+    text = on_plate(tmp_path, DOWN.replace("-300", "-5000")).read_text("utf-8")
+    cap = 'moving = "plate"\nfixed = "ball"\nregion = "ny < -0.99"'
+    whole = described(tmp_path, text)
+    small = text.replace('moving = "ball"\nfixed = "plate"', cap)
+    small = small.replace("piece = {", 'thickness = { value = 5, unit = "mm" }, piece = {')
+    result = settle(written(tmp_path / "cap.toml", small))
+    line = "plate_ball: all of the layer is under pressure, so that the contact ends with it, for 100% of the time"
+    assert line in result.sentences[0] and not any("all of the layer" in each for each in settle(whole).sentences)
 
 
 def test_the_command_writes_poses_loads_and_a_page(tmp_path: Path) -> None:

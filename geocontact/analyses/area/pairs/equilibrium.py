@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -15,12 +16,13 @@ from geocontact.analyses.area.pairs.bodies import TouchingBodies, TouchingPair, 
 from geocontact.analyses.area.pairs.bodies import read as read_touching
 from geocontact.analyses.area.pairs.options import PairsOptions, SettlePairsOptions
 from geocontact.analyses.area.pairs.totals import body_loads
-from geocontact.analyses.frame.collector import reserve
+from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.data.errors import InputError
 from geocontact.geometry.curvature import corner_normals
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.contact_pairs import DescribedFree
-from geocontact.io.text.tables import listed
+from geocontact.io.recordings.load_cells import column_in_newtons
+from geocontact.io.text.tables import listed, read_table
 from geocontact.loads.foundation import layer_loads
 from geocontact.loads.pressure_load import PressureLoad
 from geocontact.loads.settling import Rest
@@ -49,6 +51,8 @@ class PressingBodies:
         Bodies that come to rest.
     axes
         Of each of these: the body along whose axes its coordinates are; None for the common frame's.
+    forces
+        On those whose force changes over time, along these axes [N].
     """
 
     touching: TouchingBodies
@@ -56,6 +60,7 @@ class PressingBodies:
     pairs: tuple[PressedPair, ...]
     free: Mapping[str, FreeBody]
     axes: Mapping[str, str | None]
+    forces: Mapping[str, Float[np.ndarray, "t 3"]]
 
     @property
     def time(self) -> Float[np.ndarray, " t"]:
@@ -79,7 +84,11 @@ class PressingBodies:
         """All bodies in one frame."""
         poses = {name: course[k] for name, course in self.recorded.items()}
         axes = {name: RigidTransform.identity() if on is None else poses[on] for name, on in self.axes.items()}
-        return Assembly(self.pairs, poses, axes, self.free)
+        free = {
+            name: replace(one, force=self.forces[name][k]) if name in self.forces else one
+            for name, one in self.free.items()
+        }
+        return Assembly(self.pairs, poses, axes, free)
 
 
 def read(o: SettlePairsOptions) -> PressingBodies:
@@ -98,15 +107,39 @@ def read(o: SettlePairsOptions) -> PressingBodies:
         if one.body not in pressing:
             what = f"{one.body} is in no pair that has a layer: nothing presses on it"
             raise InputError(o.description, f"[[free]] {k} body", what, "describe the layer of one of its pairs")
-    if not any(one.fx or one.fy or one.fz for one in touching.free):
+    forces = {one.body: _over_time(one, one.forces, touching.time) for one in touching.free if one.forces is not None}
+    if not any(one.fx or one.fy or one.fz or one.body in forces for one in touching.free):
         what = "no force acts on any of the bodies: nothing presses them together"
         raise InputError(o.description, "[[free]]", what, "write fx, fy or fz of one")
     free = {one.body: _free(one) for one in touching.free}
     doubt_together(touching, o.description, free)
     pairs = tuple(_pressed(pair, o) for pair in layered)
-    return PressingBodies(
-        touching, tuple(pair.name for pair in layered), pairs, free, {one.body: one.axes for one in touching.free}
-    )
+    axes = {one.body: one.axes for one in touching.free}
+    return PressingBodies(touching, tuple(pair.name for pair in layered), pairs, free, axes, forces)
+
+
+def _over_time(one: DescribedFree, file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
+    """Force on a body at the times of the motion, linear between the rows of its table [N]."""
+    table = read_table(file)
+    add_input(f"forces on {one.body}", file, rows=len(table.time))
+    begin, end = table.time[[0, -1]]
+    if begin > time[0] + 1e-9 or end < time[-1] - 1e-9:
+        what = f"runs from {begin:g} to {end:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(file, "", what, "put both on one clock, or cut the motion")
+    found = np.zeros((len(time), 3))
+    columns = {axis: name for axis in "xyz" for name in (f"f{axis}", f"{one.body}_f{axis}") if name in table.channels}
+    if not columns:
+        what = f"no column fx, fy, fz or {one.body}_fx, {one.body}_fy, {one.body}_fz"
+        raise InputError(file, "", what, f"columns are: {listed(table.channels)}")
+    for axis, name in columns.items():
+        values, _ = column_in_newtons(table, name, None)
+        if values.any() and f"t{axis}" not in one.settles:
+            what = f"column '{name}' has no effect: t{axis} of {one.body} is held"
+            raise InputError(file, "", what, f"add t{axis} to settles, or leave the column out")
+        found[:, "xyz".index(axis)] = np.interp(time, table.time, values)
+    if not found.any():
+        raise InputError(file, "", f"no force acts on {one.body}", "check its columns, or leave `forces` out")
+    return found
 
 
 def _free(one: DescribedFree) -> FreeBody:

@@ -32,13 +32,15 @@ from geocontact.analyses.area.pairs.equilibrium import (
 from geocontact.analyses.area.pairs.options import SettlePairsOptions
 from geocontact.analyses.area.pairs.rest_show import rest_curves, thinned_rest_page
 from geocontact.analyses.area.pairs.totals import WRENCH, counted_twice, loads_table
+from geocontact.analyses.area.pairs.virtual_work import imbalance
 from geocontact.analyses.frame.collector import judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import BEARING
-from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_size
+from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range, of_size
 from geocontact.io.text.tables import listed
 from geocontact.loads.settling_bodies import COORDINATES
 from geocontact.view.curves.declared import CurveSheet
@@ -46,6 +48,9 @@ from geocontact.view.curves.declared import CurveSheet
 MM, MM2, MPA = 1e3, 1e6, 1e-6
 WHOLE = 1.0  # strain at which nothing is left of the layer
 NAMED = 8  # frames that a warning names
+SATURATED = 0.99  # of the layer's area, as of `knee settle`
+ENDS = "all of the layer is under pressure, so that the contact ends with it, for"
+BALANCED, UNBALANCED = 0.01, 0.1  # of what a body bears, as work and energy of `knee settle`
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -177,9 +182,22 @@ def _refuse_nowhere(r: RestingBodies, o: SettlePairsOptions) -> None:
     if apart:
         what = f"no frame came to rest: no layer presses on {listed(tuple(apart))} wherever its force leads"
         raise InputError(o.description, "[[free]]", what, "check direction and axes of the force, motions and `region`")
-    least = min(r.residuals.max(axis=1))
-    what = f"no frame came to rest; at best {least:.3g} N of residual force remained"
-    raise InputError(o.description, "[[free]]", what, "let fewer coordinates settle, or write springs")
+    best = int(np.argmin(r.residuals.max(axis=1)))
+    raise InputError(
+        o.description,
+        "[[free]]",
+        f"no frame came to rest; {_how_far(r, best)}",
+        "let fewer coordinates settle, or write springs",
+    )
+
+
+def _how_far(r: RestingBodies, k: int) -> str:
+    """How far the search of a frame without rest came."""
+    frame = r.frames[k]
+    worst = int(np.argmax(r.residuals[k]))
+    left, borne = r.residuals[k, worst], frame.assembly.borne(frame.rest.total)[worst]
+    body, count = list(frame.assembly.bodies)[worst], counted(frame.rest.steps, "step")
+    return f"at {r.pressing.time[k]:g} s {left:.3g} N of {borne:.4g} N on {body} remained after {count}"
 
 
 def goodness_of(r: RestingBodies) -> GoodnessOfFit:
@@ -191,6 +209,7 @@ def goodness_of(r: RestingBodies) -> GoodnessOfFit:
         apart = sorted({body for k in stuck for body in r.frames[k].apart})
         line = f"{len(stuck)} of {len(r.frames)} frames did not come to rest (at {times} s); their rows are empty"
         line += f"; in some no layer presses on {listed(tuple(apart))}" if apart else ""
+        line += f"; {_how_far(r, min(stuck, key=lambda k: r.residuals[k].max()))}"
         share = len(stuck) / len(r.frames)
         doubts.append(Doubt(line, share >= MUCH, share))
     for (name, strain), pair in zip(r.largest_strain.items(), r.pressing.pairs, strict=True):
@@ -198,10 +217,18 @@ def goodness_of(r: RestingBodies) -> GoodnessOfFit:
             line = f"{name}: the strain of the layer is up to {strain:.0%}: use foundation logarithmic"
             doubts.append(Doubt(line, strain >= WHOLE, strain))
     for name in r.contacts:
+        area = r.of_contact(name, lambda load: load.area)[r.kept]
+        whole = float(np.sum(r.pressing.pairs[r.pressing.names.index(name)].layer.pieces.area))
+        saturated = float(np.mean(area >= SATURATED * whole))
+        doubts += of_range(f"{name}: {ENDS}", saturated)
         peak = float(np.nanmax(r.of_contact(name, lambda load: load.peak)))
         if peak > 0.0:
             doubts += of_size(f"the largest pressure of {name}", (peak, peak), BEARING)
-    return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "pressure"))
+    off = float(np.nanmax(imbalance(r)))
+    if off > BALANCED:
+        line = f"virtual work of contacts and applied forces differs by {off:.1%}; give a smaller piece of the layers"
+        doubts.append(Doubt(line, off > UNBALANCED, off))
+    return GoodnessOfFit(tuple(doubts), ("frames at rest", "strain", "area under pressure", "pressure", "virtual work"))
 
 
 def _summarise(result: SettlePairsResult) -> None:
@@ -216,6 +243,7 @@ def _summarise(result: SettlePairsResult) -> None:
         found[name] = {"largest_force_N": float(np.nanmax(force)), "largest_pressure_MPa": float(peak)}
         if not np.nanmax(force) > 0.0:
             reserve(f"{name}: the bodies never press on each other")
+    found["virtual_work_imbalance"] = float(np.nanmax(imbalance(r)))
     found["largest_residual_N"] = float(r.residuals[r.kept].max())
     found["newton_steps_per_frame"] = round(float(np.mean([frame.rest.steps for frame in r.frames])), 2)
     note("equilibrium", found)

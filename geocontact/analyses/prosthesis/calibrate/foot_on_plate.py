@@ -8,6 +8,7 @@ from pathlib import Path
 from geocontact.analyses.frame.collector import add_input, listener, reserve
 from geocontact.analyses.frame.folder import digest
 from geocontact.analyses.motion.markers import unit_of_c3d
+from geocontact.analyses.person import name_unused, stated_of_body
 from geocontact.analyses.prosthesis.calibrate.options import ProsthesisCalibrateOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
 from geocontact.analyses.prosthesis.ranges import TURNS
@@ -109,6 +110,8 @@ def further_stances(o: ProsthesisCalibrateOptions) -> list[StanceFiles]:
         raise InputError(o.further, "[[trials]]", what, "keep those of one person, or mark them as calibrated")
     person = study.persons[names[0]]
     _require_person(person, names[0], o, o.further)
+    why = "the person is that of its options"
+    name_unused((o.further, f"[persons.{names[0]}]"), stated_of_body(person), "prosthesis calibrate", why)
     for each in own:
         if each.ground is not None:
             what = f"{each.name} is on another ground, and a calibration is on the floor y = 0"

@@ -14,7 +14,7 @@ from geocontact.analyses.frame.collector import add_input, collecting, current, 
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.checked_trial import check_apart
 from geocontact.analyses.motion.markers import unit_of_c3d
-from geocontact.analyses.person import person_segments
+from geocontact.analyses.person import name_unused, person_segments, unused_values
 from geocontact.analyses.prosthesis.compare.earlier import AskedStance, simulated_before
 from geocontact.analyses.prosthesis.compare.options import ProsthesisCompareOptions
 from geocontact.analyses.prosthesis.foot_file import foot_of, fulcrum_at
@@ -41,6 +41,7 @@ from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
+from geocontact.data.body_segments import BodySegments
 from geocontact.data.errors import InputError
 from geocontact.io.recordings.gait_study import GaitPerson, GaitStance, read_gait_study
 
@@ -124,6 +125,9 @@ def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
         name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (file, f"[persons.{name}]"))
         for name, each in study.persons.items()
     }
+    for name, each in study.persons.items():
+        idle = unused_values(each, each.mass, _of_leg)
+        name_unused((file, f"[persons.{name}]"), idle, "prosthesis compare")
     return [
         AskedStance(
             each.name,
@@ -135,6 +139,12 @@ def described(o: ProsthesisCompareOptions) -> list[AskedStance]:
         )
         for each in study.trials
     ]
+
+
+def _of_leg(segments: BodySegments) -> list[float]:
+    """What the leg with the prosthesis takes of the segments; lengths are those of the markers."""
+    thigh, shank = segments["thigh"], segments["shank"]
+    return [thigh.mass, thigh.centre, *thigh.radii, shank.mass, shank.centre]
 
 
 def _asked(trial: GaitStance, person: GaitPerson, o: ProsthesisCompareOptions) -> ProsthesisSimulateOptions:

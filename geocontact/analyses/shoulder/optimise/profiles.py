@@ -11,7 +11,7 @@ import numpy as np
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import markers_given, renamed_as_told, turn_of
-from geocontact.analyses.person import person_segments
+from geocontact.analyses.person import name_unused, person_segments, unused_values
 from geocontact.analyses.shoulder.devices import device_named, wearer_of_lengths
 from geocontact.analyses.shoulder.optimise.options import ShoulderOptimiseOptions
 from geocontact.analyses.shoulder.recordings import doubt_tool, push_force, tool_current
@@ -23,7 +23,7 @@ from geocontact.shoulder_exoskeleton.arm_motion import Side
 from geocontact.shoulder_exoskeleton.arms_from_markers import MarkerSettings, filled_markers
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import Device, Wearer
-from geocontact.shoulder_exoskeleton.human_arm import ToolWork, arm_moment
+from geocontact.shoulder_exoskeleton.human_arm import CHAIN, ToolWork, arm_moment
 from geocontact.shoulder_exoskeleton.support.arm_trial import (
     ArmTrial,
     Support,
@@ -84,6 +84,9 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
         name: person_segments(each.sex, each.age, each.mass, each.height, each.own, (o.study, f"[persons.{name}]"))
         for name, each in study.persons.items()
     }
+    for name, each in study.persons.items():
+        idle = unused_values(each, each.mass, _of_arm)
+        name_unused((o.study, f"[persons.{name}]"), idle, "shoulder optimise")
     arms = [
         arm
         for trial in bare or study.trials
@@ -95,6 +98,12 @@ def read(o: ShoulderOptimiseOptions) -> WorkersAndDevice:
         if name not in {trial.person for trial in bare or study.trials}
     }
     return WorkersAndDevice(tuple(arms), device, support_of(device), unseen)
+
+
+def _of_arm(segments: BodySegments) -> list[float]:
+    """What the torque of an arm takes of the segments."""
+    arm = [segments[name] for name in CHAIN]
+    return [value for each in arm for value in (each.length, each.mass, each.centre, *each.radii[:2])]
 
 
 def _arms(

@@ -11,6 +11,7 @@ import pandas as pd
 from geocontact.analyses.frame.collector import add_input, collecting, current, reserve
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.motion.markers import unit_of_c3d
+from geocontact.analyses.person import name_unused, stated_of_body
 from geocontact.analyses.shoulder.devices import wearer_of_lengths
 from geocontact.analyses.shoulder.recordings import recorded_channels, shown_in
 from geocontact.analyses.shoulder.shared_options import SUPPORT, level
@@ -58,6 +59,8 @@ def read(o: StudyOptions) -> tuple[StudyTrialInputs, ...]:
     study = read_overhead_study(o.study)
     add_input("study", o.study, trials=len(study.trials))
     check_study(study, o.study, o.c3d_unit)
+    for name, person in study.persons.items():
+        name_unused((o.study, f"[persons.{name}]"), stated_of_body(person), "shoulder study")
     found = tuple(_trial(study, each, share, o) for each in study.trials if (share := _level(each, o)) is not None)
     if not found:
         raise InputError(o.study, "[[trials]]", "none was recorded in the device", 'write level = "100%" into those')

@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.frame.marks import C3dUnit, Expression, Requires, TimeSpan
+from geocontact.analyses.frame.marks import C3dUnit, Expression, Needs, Requires, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.data.plausible import TALL, Plausible
 from geocontact.data.units import Unit
@@ -34,6 +34,13 @@ class StandingCoordinatesOptions(Options):
         Plates under the feet by name or number, added up; by default those whose centre of pressure is under the feet.
     chair
         The chair's plate by name or number; by default the one that lies under the hips.
+    worn
+        Angles of the hinges of an exoskeleton that was worn, exo_ankle, exo_knee, exo_hip (.mot, .sto), on the clock of
+        the motion: the study then has phases A and B, and is what `predict` takes.
+    torques
+        Torques of all joints and hinges of both legs (.sto), with `worn`.
+    strap
+        Normal force of the thigh's strap (.csv), with `worn`; without it contacts and torques are not separable.
     belt
         Speed backwards of the treadmill that is walked on [m/s]: x is then that of the belt.
     height
@@ -62,6 +69,9 @@ class StandingCoordinatesOptions(Options):
     plates: Path | None = None
     feet: Annotated[str | None, Requires("plates")] = None
     chair: Annotated[str | None, Requires("plates")] = None
+    worn: Annotated[Path | None, Needs("plates"), Needs("torques")] = None
+    torques: Annotated[Path | None, Requires("worn")] = None
+    strap: Annotated[Path | None, Requires("worn")] = None
     belt: Annotated[float, BELT] = 0.0
     height: Annotated[float | None, TALL] = None
     axes: Annotated[Expression | None, Requires("plates")] = None

@@ -14,17 +14,18 @@ from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
 from geocontact.analyses.sit_to_stand.coordinates.plates import chosen_plates
-from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, UPRIGHT, doubt_bending
+from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, UPRIGHT, doubt_bending, doubt_hinges
 from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.force_plate import ForcePlate
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN
-from geocontact.io.opensim.coordinates import motion_of
+from geocontact.io.opensim.coordinates import columns_of, coordinates_of, motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed, read_table
 from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.movements import hip_height
 from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, body_sites, planar_motion
 from geocontact.standing_up.plate_places import PlatePlace
@@ -48,6 +49,8 @@ class PlanarRecording:
         were not recorded.
     places
         What each plate of the file carries.
+    hinges
+        Angles of an exoskeleton's hinges, `EXO_JOINTS` [rad]; None where none was worn.
     """
 
     time: Float[np.ndarray, " t"]
@@ -57,6 +60,7 @@ class PlanarRecording:
     feet: Columns | None = None
     chair: Columns | None = None
     places: tuple[PlatePlace, ...] = ()
+    hinges: Float[np.ndarray, "t 3"] | None = None
 
 
 def read(o: StandingCoordinatesOptions) -> PlanarRecording:
@@ -79,24 +83,54 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
         check_trial(TrialInputs(height=o.height, moved=whole))
         return PlanarRecording(time, moved, model.mass)
     turn = turn_of(o.axes)
+    hinges = _hinges(o, time, moved)
+    mass = model.mass if hinges is None else two_chains(Subject(model.mass)).mass
     body = body_sites(model, time, values, legs)
-    under, seat, places = chosen_plates(o.plates, body, turn, model.mass, o)
+    under, seat, places = chosen_plates(o.plates, body, turn, mass, o)
     plates = tuple(FootPlate(each, str(o.plates)) for each in (*under, *seat))
     check_trial(
         TrialInputs(
             plates=plates,
-            mass=model.mass,
+            mass=mass,
             height=o.height,
-            mass_option="the model's mass",
+            mass_option="the model's mass" + ("" if hinges is None else " with the exoskeleton's"),
             stands_at=_stands_at(time, moved) if o.leg == "both" else None,
             turn=turn,
-            moved=whole,
+            moved=whole if hinges is None else None,  # its mass centre is that of the person alone
         )
     )
     clock = under[0].time
     feet = _load(under, clock, moved, o.belt)
     chair = _load(seat, clock, moved, o.belt) if seat else None
-    return PlanarRecording(time, moved, model.mass, clock, feet, chair, places)
+    return PlanarRecording(time, moved, model.mass, clock, feet, chair, places, hinges)
+
+
+def _hinges(o: StandingCoordinatesOptions, time: Times, moved: PlanarMotion) -> Float[np.ndarray, "t 3"] | None:
+    """Angles of an exoskeleton's hinges at the times of the motion [rad]; None where none was worn."""
+    if o.worn is None:
+        return None
+    if o.strap is None:
+        what = "no force of a strap was recorded: its stiffness and place and the person's torques are not separable"
+        raise InputError("", "`worn`", what, "give the normal force of the thigh's `strap`: phases B and C need it")
+    if o.leg != "both":
+        raise InputError("", "`worn`", "has no effect on stances of one leg", "leave it out, or take both legs")
+    table = read_table(o.worn)
+    add_input("`worn`", o.worn, frames=len(table.time))
+    joints = [joint for joint in two_chains(Subject()).joints if joint.name in EXO_JOINTS]
+    columns = columns_of(table, joints)
+    lacking = [name for name in EXO_JOINTS if name not in columns]
+    if lacking:
+        remedy = f"its hinges are {', '.join(EXO_JOINTS)}: were all recorded?"
+        raise InputError(o.worn, "", f"no column for {', '.join(lacking)}", remedy)
+    step = float(np.ptp(time)) / (len(time) - 1)
+    begin, end = table.time[[0, -1]]
+    if begin > time[0] + step or end < time[-1] - step:
+        what = f"runs from {begin:g} to {end:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
+        raise InputError(o.worn, "", what, "put both on one clock, or cut the motion by `time`")
+    found = coordinates_of(table, joints, columns, None)
+    hinges = np.column_stack([np.interp(time, table.time, found[name]) for name in EXO_JOINTS])
+    doubt_hinges(o.worn, moved.q[:, ANGLES], hinges)
+    return hinges
 
 
 def _stands_at(time: Times, moved: PlanarMotion) -> float | None:

@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -32,9 +33,11 @@ from geocontact.data.motion import Course
 from geocontact.data.plausible import Plausible
 from geocontact.data.units import m
 from geocontact.io.opensim.storage_writer import write_storage
+from geocontact.io.recordings.described_person import OVER_HIPS
 from geocontact.standing_up.chain import COORDINATES, Subject
+from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.movements import TASKS, contradiction, hip_height, movements_of
-from geocontact.standing_up.person_segments import SHARES
+from geocontact.standing_up.person_segments import SHARES, to_proximal
 from geocontact.standing_up.stance import JERK, SIZES, off_the_foot, smooth, stances
 from geocontact.trial_checks.body_checks import LEG_OFF
 from geocontact.view.curves.declared import INK, Curve, Curves, CurveSheet, Shade
@@ -145,8 +148,13 @@ class StandingCoordinatesResult(Result):
     def write_files(self, folder: Path) -> None:
         """Coordinates; plates and study where they were recorded; tables, figure, page."""
         q = self.given.moved.q
-        columns = np.column_stack([q[:, :2], np.degrees(q[:, 2:])])
-        write_storage(folder / ANGLES, self.time, list(COORDINATES), columns, title="Planar chain", degrees=True)
+        hinges = np.zeros((len(q), 0)) if self.given.hinges is None else self.given.hinges
+        columns = np.column_stack([q[:, :2], np.degrees(q[:, 2:]), np.degrees(hinges)])
+        names = [*COORDINATES, *EXO_JOINTS[: hinges.shape[1]]]
+        write_storage(folder / ANGLES, self.time, names, columns, title="Planar chain", degrees=True)
+        for name, file in self.beside.items():
+            if not (folder / name).exists() or not file.samefile(folder / name):
+                shutil.copyfile(file, folder / name)
         if self.given.feet is not None and self.given.clock is not None:
             loads = {"feet": self.given.feet, "chair": self.given.chair}
             there = {name: load for name, load in loads.items() if load is not None}
@@ -161,6 +169,12 @@ class StandingCoordinatesResult(Result):
             (folder / STUDY).write_text(self.study_toml(), encoding="utf-8")
         super().write_files(folder)
 
+    @property
+    def beside(self) -> dict[str, Path]:
+        """Files of torques and strap by the names that the study has for them; none where nothing was worn."""
+        named = {"torques": self.options.torques, "strap": self.options.strap}
+        return {f"{key}{file.suffix}": file for key, file in named.items() if file is not None}
+
     def study_toml(self) -> str:
         """A study of this recording, its files beside it."""
         o = self.options
@@ -168,16 +182,20 @@ class StandingCoordinatesResult(Result):
         lines += [f'mass = {{ value = {self.given.mass:.6g}, unit = "kg" }}']
         lines += [f'height = {{ value = {self.height:.6g}, unit = "m" }}']
         on_plates = self.given.feet is not None
-        tracks = '"coordinates", "force", "centre"' if on_plates else '"coordinates"'
+        worn = self.given.hinges is not None
+        followed = ["coordinates", *(["force", "centre"] if on_plates else []), *(["torque", "strap"] if worn else [])]
+        lines += ["exoskeleton = true"] if worn else []
+        tracks = ", ".join(f'"{name}"' for name in followed)
         lines += [f"tracks = [{tracks}]", "", "[noise]"]
         lines += [f'{name} = {{ value = {size:.6g}, unit = "{NOISE_UNITS[name]}" }}' for name, size in SIZES.items()]
         if o.leg != "both":
             lines += ["", "[weights]", *(f"{name} = {size:.6g}" for name, size in JERK.items())]
-        for segment, own in self.given.moved.own.items():
-            lines += ["", f"[person.{segment}]"]
+        for segment, own in to_proximal(self.given.moved.own, self.height, "male").items():
+            lines += ["", f"[person.segments.{OVER_HIPS if segment == 'trunk' else segment}]"]
             lines += [f'{key} = {{ value = {value:.6g}, unit = "{UNITS[key]}" }}' for key, value in own.items()]
         files = [f'coordinates = "{ANGLES}"']
         files += ['plates = "plates.mot"', 'feet = "feet_force"'] if on_plates else []
+        files += [f'{Path(name).stem} = "{name}"' for name in self.beside]
         for span in self.spans:
             seat = self.given.chair is not None and span.task in SEATED_TASKS
             lines += ["", "[[trials]]", f'name = "{span.name}"', f'task = "{span.task}"', *files]
