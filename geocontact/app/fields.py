@@ -17,7 +17,6 @@ from geocontact.analyses.frame.marks import Excludes, Missing, Requires, Spelled
 from geocontact.analyses.frame.options import Declared, declared
 from geocontact.cli.command import FORMS, RESULTS, argument, default, option, speller
 from geocontact.data.plausible import Plausible
-from geocontact.io.text.units import DIMENSIONS
 
 PROGRAM = "geocontact"
 Kind = Literal["flag", "choice", "file", "files", "lines", "text"]
@@ -25,7 +24,7 @@ UNITS_OF = {
     "length": ("mm", "cm", "m", "in"),
     "lengths": ("mm", "cm", "m", "in"),
     "thickness": ("mm", "cm", "m", "in"),
-    "pressure": ("", *(unit for unit in DIMENSIONS["Pa"] if "/" not in unit)),
+    "pressure": ("", "MPa", "GPa", "kPa", "Pa", "bar", "psi", "mmHg"),
     "body_mass": ("kg", "g", "lb"),
     "fraction": ("", "%"),
 }

@@ -90,6 +90,7 @@ class Row:
     def _units(self) -> None:
         values = [(each, each or "unit …") for each in self.one.units]
         made = choice(values, self._form.unit(self.one), aria_label=f"unit of {self.one.label}")
+        made.props["name"] = f"{self.one.name}-unit"
         made.on("change", lambda e: self._set_unit(str(e.args)), js_handler=VALUE)
         self.inputs.append(made)
 

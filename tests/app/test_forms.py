@@ -6,13 +6,15 @@ import shlex
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import geocontact as gc
 from geocontact.analyses.catalogue import ENTRIES, entry_of
+from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
-from geocontact.app.fields import Form, fields_of, shown
+from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
 from geocontact.app.study import study_of
 from geocontact.cli.main import app
 from geocontact.data.errors import InputError
@@ -111,6 +113,17 @@ def test_units_are_chosen_and_texts_that_say_theirs_stay() -> None:
     assert {"--threshold=1cm,4cm", "--congruence=5 cm"} <= set(form.words("out"))
     back = Form.of_words(["area", "--threshold", "4mm", "--out", "x"])
     assert (back.values["threshold"], back.units["threshold"]) == ("4", "mm")
+
+
+@pytest.mark.parametrize("read", UNITS_OF)
+def test_every_unit_that_can_be_chosen_is_read(read: str) -> None:
+    """And no reader of another name takes them for something else: 1 in each unit is as much as its SI value."""
+    factors = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "kg": 1.0, "g": 1e-3, "lb": 0.45359237, "%": 0.01}
+    factors |= {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "psi": 6894.757293168361}
+    factors["mmHg"] = 133.322387415
+    for unit in filter(None, UNITS_OF[read]):
+        found = getattr(quantities, read)(f"0.5{unit}", "x")
+        assert np.ravel(found) == pytest.approx([0.5 * factors[unit]], rel=1e-9), unit
 
 
 def test_fields_without_effect_are_neither_enabled_nor_typed() -> None:
