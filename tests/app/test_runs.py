@@ -15,6 +15,7 @@ import pytest
 from geocontact.app import samples
 from geocontact.app.fields import Form, shown
 from geocontact.app.runs import Queue, Run
+from geocontact.app.sample_files import write_files
 
 PATIENCE = 240.0  # s on a busy machine
 
@@ -75,7 +76,7 @@ def test_how_far_it_is_and_the_time_left() -> None:
 @pytest.mark.skipif(os.name == "nt", reason="groups of processes of POSIX")
 def test_cancel_ends_all_processes_and_leaves_nothing(queue: Queue, tmp_path: Path) -> None:
     """Two runs of minutes: one with worker processes is cancelled while it runs, the other one before it begins."""
-    samples.write_files(tmp_path / "sample-files")
+    write_files(tmp_path / "sample-files")
     before = sorted(tmp_path.rglob("*"))
     first = queue.add(
         ["gap", "benchmark", "--system=all", "--cases=5", "--jobs=2", f"--out={tmp_path / 'first'}"],

@@ -18,6 +18,7 @@ from geocontact.analyses.catalogue import ENTRIES
 from geocontact.analyses.frame.rerun import differing, results_of
 from geocontact.app import samples
 from geocontact.app.fields import Form, shown
+from geocontact.cli.demo import sample_folder
 from tests.app.conftest import ENTRY, Window
 
 if TYPE_CHECKING:
@@ -207,7 +208,7 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
 
 def test_a_file_that_is_chosen_lies_in_a_folder_of_the_run(window: Window, tmp_path: Path) -> None:
     cup = tmp_path / "a cup.stl"
-    cup.write_bytes((samples.sample_folder() / "cup_r24.stl").read_bytes())
+    cup.write_bytes((sample_folder() / "cup_r24.stl").read_bytes())
     tab = window.tab("form/fit")
     tab.get_by_label("choose a file for mesh").set_input_files(cup)
     until(tab, "document.querySelector('[name=mesh]').value.endsWith('a cup.stl')", 20.0)
