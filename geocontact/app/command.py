@@ -24,9 +24,9 @@ def window(*, out: Path = Path("geocontact-results"), port: int = 0, browser: bo
         Open the browser.
     """
     if not 0 <= port <= HIGHEST:
-        raise InputError("", "--port", f"{port} is no port", f"give 0 to {HIGHEST}")
+        raise InputError("", "", f"{port} is no port", f"give 0 to {HIGHEST}")
     if out.exists() and not out.is_dir():
-        raise InputError(out, "", "is a file", "--out names a folder")
+        raise InputError(out, "", "is a file where results need a folder", "choose another one")
     from geocontact.app.server import serve
 
     out.mkdir(parents=True, exist_ok=True)

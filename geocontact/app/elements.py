@@ -33,7 +33,7 @@ def choice(values: Iterable[tuple[str, str]], chosen: str, **attributes: Any) ->
     made = element("select", **attributes)
     with made:
         for value, words in values:
-            text("option", words, value=value, **({"selected": True} if value == chosen else {}))
+            text("option", words, value=value).props.set_bool("selected", value == chosen)
     return made
 
 

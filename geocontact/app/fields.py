@@ -15,7 +15,8 @@ from typing import Any, Literal, Union, get_args, get_origin
 from geocontact.analyses.catalogue import Entry, entry_of
 from geocontact.analyses.frame.marks import Excludes, Missing, Requires, Spelled
 from geocontact.analyses.frame.options import Declared, declared
-from geocontact.cli.command import FORMS, RESULTS, argument, default, option, speller
+from geocontact.cli.command import FORMS, RESULTS, argument, default, negative, option, speller
+from geocontact.cli.folders import OUT
 from geocontact.data.plausible import Plausible
 
 PROGRAM = "geocontact"
@@ -45,7 +46,7 @@ class Field:
     words
         Its help, as the command line spells it.
     spelled
-        How the command line spells it: --threshold, MOVING.
+        How the command line spells it, with its dashes, or MOVING for an input.
     """
 
     one: Declared
@@ -54,12 +55,12 @@ class Field:
 
     @property
     def name(self) -> str:
-        """Its name in Python."""
+        """The name in Python."""
         return self.one.name
 
     @property
     def label(self) -> str:
-        """Its name as it stands beside the input."""
+        """The name as it stands beside the input."""
         return option(self.one).replace("-", " ")
 
     @property
@@ -113,7 +114,7 @@ class Field:
         if isinstance(value, bool):
             if value == (self.one.default is True):
                 return []
-            return [self.spelled if value else f"--no-{option(self.one)}"]
+            return [self.spelled if value else negative(self.one)]
         lines = [line.strip() for line in value.splitlines() if line.strip()]
         texts = [_with_unit(line, unit) for line in lines]
         if argument(self.one):
@@ -189,7 +190,7 @@ class Form:
             if not self.without_effect(one):
                 typed = one.typed(self.value(one), self.unit(one))
                 (inputs if argument(one.one) else named).extend(typed)
-        return [*self.command.split(), *inputs, *named, f"--out={out}"]
+        return [*self.command.split(), *inputs, *named, f"{OUT}={out}"]
 
     def at(self, message: str) -> Field | None:
         """The field that a message names: by its spelling, else by the file that was filled in."""
@@ -234,8 +235,10 @@ def fields_of(command: str) -> tuple[Field, ...]:
 def _of_every_command(over_time: bool) -> list[Declared]:
     """What the command line asks about the results of every analysis."""
     names = [name for name in FORMS if name != "netcdf" or over_time]
-    more: Any = (None, Spelled(), (), (), None, Missing())
-    return [Declared(name, bool, False, False, False, *more, FORMS[name], RESULTS) for name in names]
+    return [
+        Declared(name, bool, False, False, False, None, Spelled(), (), (), None, Missing(), FORMS[name], RESULTS)
+        for name in names
+    ]
 
 
 def _commands() -> set[str]:
@@ -245,16 +248,17 @@ def _commands() -> set[str]:
 
 
 def _fill(form: Form, words: list[str]) -> None:
-    """Fill in what was typed: `--name value`, `--name=value`, flags and inputs in their order."""
+    """Fill in what was typed: options with their values behind a blank or =, switches, inputs in their order."""
     named = {one.spelled: one for one in form.fields if not argument(one.one)}
+    turned_off = {negative(one.one): one for one in named.values() if one.kind == "flag"}
     inputs = [one for one in form.fields if argument(one.one)]
     while words:
         word, equals, text = words.pop(0).partition("=")
         one = named.get(word)
-        if word == "--out":
+        if word == OUT:
             words[:] = words if equals else words[1:]
-        elif one is None and word.startswith("--no-"):
-            form.values[named[f"--{word[5:]}"].name] = False
+        elif word in turned_off:
+            form.values[turned_off[word].name] = False
         elif one is None:
             one = inputs[0] if inputs[0].several else inputs.pop(0)
             _add(form, one, word + equals + text)
@@ -296,7 +300,7 @@ def _parts(kind: Any) -> tuple[Any, ...]:
 
 
 def _place(spelled: str, message: str) -> int:
-    """Where a message names an option; -1 where it does not. --unit is not in --unit-moving."""
+    """Where a message names an option; -1 where it does not, or names a longer one."""
     at = message.find(spelled)
     while at >= 0:
         before, after = message[:at][-1:], message[at + len(spelled) :][:1]

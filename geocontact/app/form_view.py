@@ -17,7 +17,7 @@ VALUE = "(e) => emit(e.target.value)"
 CHECKED = "(e) => emit(e.target.checked)"
 
 
-class Row:
+class FieldRow:
     """A field on the page.
 
     Parameters
@@ -73,7 +73,8 @@ class Row:
     def _input(self) -> Element:
         one, value = self.one, self._form.value(self.one)
         if one.kind == "flag":
-            made = element("input", type="checkbox", **({"checked": True} if value else {}))
+            made = element("input", type="checkbox")
+            made.props.set_bool("checked", bool(value))
             return made.on("change", lambda e: self._set(bool(e.args)), js_handler=CHECKED)
         if one.kind == "choice":
             values = [("", f"({one.default or 'none'})"), *((str(each), str(each)) for each in one.one.choices)]
@@ -127,7 +128,7 @@ class FormView:
 
     def __init__(self, form: Form, upload: str, changed: Callable[[], None]) -> None:
         self.form = form
-        self.rows: list[Row] = []
+        self.rows: list[FieldRow] = []
         self._groups: dict[str, Element] = {}
         for section in dict.fromkeys(one.one.section for one in form.fields):
             inside = [one for one in form.fields if one.one.section == section]
@@ -135,7 +136,7 @@ class FormView:
                 if not section or any(one.one.required or form.values.get(one.name) for one in inside):
                     group.props["open"] = True
                 text("summary", section or "Inputs and options")
-                self.rows += [Row(one, form, upload, changed) for one in inside]
+                self.rows += [FieldRow(one, form, upload, changed) for one in inside]
             self._groups |= dict.fromkeys((one.name for one in inside), group)
 
     def refresh(self, wrong: str, only_touched: bool = True) -> str:

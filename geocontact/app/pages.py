@@ -25,7 +25,7 @@ SANDBOX = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
 """Pages of results run their own scripts, but belong to no origin: they reach nothing of the window."""
 
 
-class Site:
+class Shared:
     """What all pages share.
 
     Parameters
@@ -69,7 +69,9 @@ class Site:
 
 def add_pages(queue: Queue) -> None:
     """Declare all pages and addresses."""
-    shared = Site(queue)
+    shared = Shared(queue)
+    for run in reversed(earlier_runs(queue.folder)):
+        queue.remember(run)
 
     @site.post("/upload/{key}")
     async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
@@ -107,7 +109,7 @@ def start_page(queue: Queue) -> None:
         _recent(queue)
 
 
-def form_page(shared: Site, command: str, sampled: bool) -> None:
+def form_page(shared: Shared, command: str, sampled: bool) -> None:
     """The form of an analysis, filled with its sample where that is asked for."""
     queue = shared.queue
     form = Form(command)
@@ -139,7 +141,7 @@ def _begin(title: str) -> None:
     """Title, style and head of a page."""
     ui.page_title(f"{title} – geocontact" if title != "geocontact" else title)
     ui.add_css(HERE / "style.css")
-    ui.add_body_html(f"<script>{(HERE / 'script.js').read_text('utf-8')}</script>")
+    ui.add_body_html(f"<script>{(HERE / 'script.js').read_text(encoding='utf-8')}</script>")
     with element("header", "top"):
         link("geocontact", "/")
         link("all analyses", "/")

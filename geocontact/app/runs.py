@@ -112,13 +112,16 @@ class Queue:
         self.runs: list[Run] = []
         self._numbers = count(1)
         self._changed = threading.Condition()
-        self._closed = False
+        self._closed = threading.Event()
         self._worker = threading.Thread(target=self._work, daemon=True)
         self._worker.start()
 
     def add(self, words: Sequence[str], out: Path, title: str) -> Run:
         """A run that begins when those before it have ended."""
-        run = Run(list(words), out, title)
+        return self.remember(Run(list(words), out, title))
+
+    def remember(self, run: Run) -> Run:
+        """Number a run and keep it; one that waits begins in its turn."""
         with self._changed:
             run.number = next(self._numbers)
             self.runs.append(run)
@@ -139,7 +142,7 @@ class Queue:
 
     def close(self) -> None:
         """Cancel all."""
-        self._closed = True
+        self._closed.set()
         for run in reversed(self.runs):
             self.cancel(run)
         with self._changed:
@@ -149,18 +152,18 @@ class Queue:
         return next((run for run in self.runs if run.state == "waiting"), None)
 
     def _work(self) -> None:
-        while not self._closed:
+        while not self._closed.is_set():
             with self._changed:
-                self._changed.wait_for(lambda: self._closed or self._next() is not None)
-                run = None if self._closed else self._next()
-                if run is not None:
-                    _start(run, self.folder)
-            if run is not None:
-                _finish(run)
+                self._changed.wait_for(lambda: self._closed.is_set() or self._next() is not None)
+                run = self._next()
+                if run is None or self._closed.is_set():
+                    return
+                _start(run, self.folder)
+            _finish(run)
 
 
 def _start(run: Run, folder: Path) -> None:
-    """Its process, in a group of its own, so that all of it can be ended."""
+    """Start the process, in a group of its own, so that all of it can be ended."""
     run.state, run.began = "running", time.monotonic()
     run.process = subprocess.Popen(
         [sys.executable, "-m", "geocontact.app.child", *run.words],
@@ -201,14 +204,13 @@ def _each_line(stream: IO[str], take: Callable[[str], None]) -> None:
 
 def _end(process: subprocess.Popen[str]) -> None:
     """Ask a process to end, which removes what it had begun to write; then end all that it started."""
-    if os.name == "nt":
+    if sys.platform == "win32":
         taskkill = shutil.which("taskkill") or "taskkill"
         subprocess.run([taskkill, "/T", "/F", "/PID", str(process.pid)], check=False, capture_output=True)
-        process.wait()
-        return
-    process.terminate()
-    with suppress(subprocess.TimeoutExpired):
-        process.wait(GRACE)
-    with suppress(ProcessLookupError, PermissionError):
-        os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.terminate()
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(GRACE)
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
     process.wait()

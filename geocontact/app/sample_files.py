@@ -28,13 +28,13 @@ def _table(columns: Columns) -> str:
 
 def _gait(name: str) -> str:
     """Every tenth frame of a shipped gait cycle."""
-    head, *rows = (sample_folder() / name).read_text("utf-8").splitlines()
+    head, *rows = (sample_folder() / name).read_text(encoding="utf-8").splitlines()
     return "\n".join([head, *rows[::10]]) + "\n"
 
 
 def _bodies(name: str) -> str:
     """A shipped description of bodies, with every tenth frame of their motions."""
-    described = (sample_folder() / name).read_text("utf-8")
+    described = (sample_folder() / name).read_text(encoding="utf-8")
     described = re.sub(r'motion = "(\w+)\.csv"', r'motion = "\1_11.csv"', described)
     return described.replace('mesh = "', f'mesh = "{sample_folder().as_posix()}/')
 
@@ -60,19 +60,22 @@ def _sole() -> str:
     return "\n".join(["px [m],py [m],pz [m],radius [m],zone", *rows]) + "\n"
 
 
+def _stance(phase: float, depth: float) -> tuple[float, float]:
+    """Pitch [rad] and height [m] of a foot from heel strike to heel rise; the sole sinks up to `depth` [m]."""
+    pitch = 0.25 - 0.7 * phase**2 + 0.06 * math.sin(3.0 * math.pi * phase)
+    lowest = min(0.22 * k / 14 * math.sin(pitch) + 0.012 * math.cos(pitch) - 0.011 for k in range(15))
+    return pitch, -lowest - depth * math.sin(math.pi * (0.05 + 0.9 * phase))
+
+
 def _foot() -> str:
-    """Heel strike, flat foot, heel rise in the sagittal plane, in 0.8 s; the sole sinks up to 4 mm."""
-    columns: dict[str, list[float]] = {name: [] for name in ("time [s]", "tx [m]", "ty [m]", "tz [m]")}
-    columns |= {name: [] for name in ("qw", "qx", "qy", "qz")}
-    for k in range(81):
-        phase = k / 80
-        pitch = 0.25 - 0.7 * phase**2 + 0.06 * math.sin(3.0 * math.pi * phase)
-        lowest = min(0.22 * i / 14 * math.sin(pitch) + 0.012 * math.cos(pitch) - 0.011 for i in range(15))
-        height = -lowest - 0.004 * math.sin(math.pi * (0.05 + 0.9 * phase))
-        row = (0.8 * phase, 0.02 * phase, height, 0.0, math.cos(pitch / 2), 0.0, 0.0, math.sin(pitch / 2))
-        for name, value in zip(columns, row, strict=True):
-            columns[name].append(value)
-    return _table(columns)
+    """A stance of 0.8 s in the sagittal plane, as poses."""
+    rows = []
+    for phase in (k / 80 for k in range(81)):
+        pitch, height = _stance(phase, 0.004)
+        place = (0.8 * phase, 0.02 * phase, height, 0.0)
+        rows.append((*place, math.cos(pitch / 2), 0.0, 0.0, math.sin(pitch / 2)))
+    names = ("time [s]", "tx [m]", "ty [m]", "tz [m]", "qw", "qx", "qy", "qz")
+    return _table(dict(zip(names, zip(*rows, strict=True), strict=True)))
 
 
 def _tray() -> str:
@@ -195,15 +198,10 @@ def _plan() -> str:
 
 def _steps(k: int) -> str:
     """x, y [m] and pitch [rad] of a foot that sinks a little deeper in each trial, which begins a sample later."""
-    columns: dict[str, list[float]] = {"time [s]": [], "x [m]": [], "y [m]": [], "pitch [rad]": []}
-    for i in range(k, 81):
-        phase = i / 80
-        pitch = 0.25 - 0.7 * phase**2 + 0.06 * math.sin(3.0 * math.pi * phase)
-        lowest = min(0.22 * j / 14 * math.sin(pitch) + 0.012 * math.cos(pitch) - 0.011 for j in range(15))
-        height = -lowest - (0.004 + 0.0005 * k) * math.sin(math.pi * (0.05 + 0.9 * phase))
-        for name, value in zip(columns, (0.8 * phase, 0.02 * phase, height, pitch), strict=True):
-            columns[name].append(value)
-    return _table(columns)
+    phases = [i / 80 for i in range(k, 81)]
+    pitch, height = zip(*(_stance(phase, 0.004 + 0.0005 * k) for phase in phases), strict=True)
+    columns = {"time [s]": [0.8 * phase for phase in phases], "x [m]": [0.02 * phase for phase in phases]}
+    return _table({**columns, "y [m]": height, "pitch [rad]": pitch})
 
 
 def _plates() -> str:

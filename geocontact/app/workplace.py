@@ -16,6 +16,7 @@ from geocontact.app.fields import Form, shown
 from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
 from geocontact.app.study import study_of
+from geocontact.cli.folders import OUT
 from geocontact.data.errors import InputError
 
 LOOK = 0.3
@@ -85,9 +86,9 @@ class Workplace:
     def make_study(self) -> None:
         """Write the study that the form begins, and say how it is run."""
         file = self.queue.folder / f"{self.out.name}-study.toml"
-        file.write_text(study_of(self.form, self.queue.folder), encoding="utf-8")
-        line = shown(["cohort", str(file), f"--out={file.with_suffix('')}"])
-        self.study.text = f"{file.read_text('utf-8')}\n# {line}"
+        described = study_of(self.form, self.queue.folder)
+        file.write_text(described, encoding="utf-8")
+        self.study.text = f"{described}\n# {shown(['cohort', str(file), OUT, str(file.parent / file.stem)])}"
 
     def _beside(self) -> None:
         """What stands beside the form."""

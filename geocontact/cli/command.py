@@ -189,6 +189,11 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
         print(f"results in {folder}: {', '.join(_shortened(files))}")
 
 
+def negative(one: Declared) -> str:
+    """How a switch that is on by default is turned off."""
+    return f"--no-{option(one)}"
+
+
 def option(one: Declared) -> str:
     """The option's name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
