@@ -30,13 +30,12 @@ def read(words: Sequence[str], command: str) -> Options:
     return command_of(entry_of(command)).read(*bound.args, **bound.kwargs)
 
 
-def mistake(words: Sequence[str], command: str) -> str:
-    """What the command line would refuse at once, in its words; "" where it would begin."""
+def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:
+    """The call in Python, and what the command line would refuse at once, in its words; one of them is empty."""
     try:
-        read(words, command)
+        return python_lines(words, command, out), ""
     except (CycloptsError, InputError) as error:
-        return " ".join(refusal(error).split())
-    return ""
+        return "", " ".join(refusal(error).split())
 
 
 def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from itertools import count
 from pathlib import Path
 
-from cyclopts import CycloptsError
 from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
@@ -17,7 +17,6 @@ from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
 from geocontact.app.study import study_of
 from geocontact.cli.folders import OUT
-from geocontact.data.errors import InputError
 
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
@@ -44,15 +43,14 @@ class Workplace:
         self.words: list[str] = []
         self._dirty = True
         self._panels: dict[int, RunPanel] = {}
-        self._refused: set[int] = set()
         with element("div", "work"):
             with element("div", "fields"):
                 self.view = FormView(form, upload, self._changed)
             with element("div", "side"):
                 self._beside()
         self.pages = element("div", "pages")
-        self._look()
-        ui.timer(LOOK, self._look)
+        self.command.text = shown(self.form.words(self.out))
+        ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
 
     def run(self) -> None:
         """A run of what is filled in; its results lie in a folder of their own."""
@@ -61,7 +59,7 @@ class Workplace:
         if own and own[-1].state in ("done", "waiting", "running"):
             self.out = _next_folder(self.out)
             self.folder.props["defaultValue"] = str(self.out)
-            ui.run_javascript(f"document.getElementById('{self.folder.html_id}').value = {str(self.out)!r}")
+            ui.run_javascript(f"document.getElementById('{self.folder.html_id}').value = {json.dumps(str(self.out))}")
             self.words = self.form.words(self.out)
         run = self.queue.add(self.words, self.out, self.out.name)
         self._panels[run.number] = RunPanel(run, self)
@@ -142,14 +140,11 @@ class Workplace:
                 self.show(run, beside=False)
 
     def _say(self) -> None:
+        """Show the call, and a mistake at the field that it names."""
         words = self.form.words(self.out)
         self.command.text = shown(words)
-        try:
-            self.python.text = calls.python_lines(words, self.form.command, self.out) or "the command line only"
-            wrong = ""
-        except (CycloptsError, InputError):
-            wrong = calls.mistake(words, self.form.command)
-            self.python.text = "…"
+        lines, wrong = calls.checked(words, self.form.command, self.out)
+        self.python.text = lines or ("…" if wrong else "the command line only")
         self.missing.text = self.view.refresh(wrong)
 
 

@@ -62,7 +62,7 @@ def test_a_sample_through_the_form_is_the_same_call(command: str, home: Path) ->
     again = form.words(home / "out")
     assert parsed(again) == parsed(words)
     assert shlex.split(shown(again))[1:] == again
-    assert calls.mistake(again, command) == ""
+    assert calls.checked(again, command, home)[1] == ""
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -142,9 +142,9 @@ def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
     form = Form.of_words(words_of("area", home))
     for name, wrong in (("threshold", "4 parsec"), ("side", "above"), ("moving", "no.stl"), ("draws", "many")):
         filled = Form("area", form.values | {name: wrong} | ({"pose_sd": "t=1"} if name == "draws" else {}))
-        message = calls.mistake(filled.words("out"), "area")
+        lines, message = calls.checked(filled.words("out"), "area", "out")
         at = filled.at(message)
-        assert message and at is not None and at.name == name, (name, message)
+        assert message and not lines and at is not None and at.name == name, (name, message)
     with pytest.raises(InputError, match="4 parsec"):
         calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
 
