@@ -122,6 +122,8 @@ class Extra:
         Script that makes the command's input with the extra, and the file that it makes.
     more
         Commands that are run after it.
+    serves
+        Whether the command prints an address and lasts until it is ended.
     """
 
     command: str
@@ -129,6 +131,7 @@ class Extra:
     prepare: str = ""
     input: str = ""
     more: tuple[str, ...] = ()
+    serves: bool = False
 
 
 EXTRAS = {
@@ -152,6 +155,7 @@ EXTRAS = {
     "cohort": Extra("cohort study.toml --workers 1 --out study", "geocontact[cohort]"),
     "parquet": Extra(f"area {KNEE} --motion two.csv --parquet --out parquet", "geocontact[parquet]"),
     "step": Extra("fit ball.step --shape sphere --unit mm --out step", "geocontact[step]", input="ball.step"),
+    "app": Extra("app --no-browser --out window", "geocontact[app]", serves=True),
     "muscles": Extra(
         "id {m}/leg_swing.mot --model muscular.osim --muscles --across tibia_r --out muscles",
         "geocontact[muscles]",
@@ -185,6 +189,14 @@ class Environment:
         if done.returncode:
             sys.exit(f"{program} {' '.join(words)[:300]}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
         return done.stdout
+
+    def served(self, *words: str) -> str:
+        """What a command that lasts prints first; it is ended then."""
+        command = [str(self.bin / "geocontact"), *words]
+        with subprocess.Popen(command, cwd=self.work, env=self.variables, stdout=subprocess.PIPE, text=True) as process:
+            line = process.stdout.readline() if process.stdout else ""
+            process.terminate()
+        return line if line.startswith("http://127.0.0.1:") else sys.exit(f"geocontact {' '.join(words)}: {line!r}")
 
     def install(self, what: str, *options: str) -> None:
         """At the versions of the lock."""
@@ -226,7 +238,9 @@ def try_extra(there: Environment, wheel: Path, name: str, meshes: str) -> None:
     there.install(f"{wheel}[{name}]")
     if extra.prepare:
         there.must("python", "-c", extra.prepare)
-    for command in (extra.command, *extra.more):
+    if extra.serves:
+        told(f"[{name}] {extra.command}", there.served(*words))
+    for command in extra.more if extra.serves else (extra.command, *extra.more):
         told(f"[{name}] {command}", there.must("geocontact", *command.format(m=meshes).split()))
     there.remove(there.packages() - before)
 

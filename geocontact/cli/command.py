@@ -76,6 +76,13 @@ class Command:
         """Run it with options as typed, by their names in `run.json`; the result and the names of its files."""
         return self.execute_in_si(self.in_si(typed), typed, folder, forms, overwrite=overwrite)
 
+    def read(self, *arguments: Any, **typed: Any) -> Options:
+        """Options of what was typed, as a call reads them; nothing is run."""
+        with self.respelling():
+            options = self.options(**self.in_si(_typed(self.known, self.rest, arguments, typed)))
+            options.refuse_missing_files()
+            return options
+
     def in_si(self, typed: Mapping[str, Any]) -> dict[str, Any]:
         """Options as typed in SI, by their names in Python."""
         return {one.name: one.read(typed[key(one)]) for one in self.known if key(one) in typed}
@@ -182,6 +189,11 @@ def tell(result: Result, folder: Path, files: list[str]) -> None:
         print(f"results in {folder}: {', '.join(_shortened(files))}")
 
 
+def negative(one: Declared) -> str:
+    """How a switch that is on by default is turned off."""
+    return f"--no-{option(one)}"
+
+
 def option(one: Declared) -> str:
     """The option's name on the command line, without the dashes."""
     return one.spelled.name or one.name.replace("_", "-")
@@ -194,17 +206,18 @@ def _typed(known: tuple[Declared, ...], rest: str, arguments: tuple[Any, ...], t
     for one in known:
         if argument(one):
             several = tuple(left.pop(0) for _ in range(len(left))) if one.several else ()
-            found[key(one)] = several if one.several else left.pop(0) if left else _default(one)
+            found[key(one)] = several if one.several else left.pop(0) if left else default(one)
         elif one.name in typed:
             found[key(one)] = typed[one.name]
         else:
-            found[key(one)] = _default(one)
+            found[key(one)] = default(one)
     if rest:
         found[rest] = (*(found[rest] or ()), *left) or None
     return {**found, "out": typed["out"]}
 
 
-def _default(one: Declared) -> Any:
+def default(one: Declared) -> Any:
+    """The default as it is typed."""
     return one.default if one.spelled.default is None else one.spelled.default
 
 
@@ -239,7 +252,7 @@ def _positional(one: Declared, spell: Callable[[str], str]) -> list[inspect.Para
     if not one.several:
         kind = one.kind | None if one.optional else one.kind
         single = _parameter(one.name, inspect.Parameter.POSITIONAL_ONLY, kind, told)
-        return [single if one.required else single.replace(default=_default(one))]
+        return [single if one.required else single.replace(default=default(one))]
     many = _parameter(one.name, inspect.Parameter.VAR_POSITIONAL, Path, told)
     if not one.required:
         return [many]
@@ -263,7 +276,7 @@ def _keyword(one: Declared, place: int, spell: Callable[[str], str]) -> inspect.
     kind = one.kind if one.typed is None else one.typed.kind
     annotation = kind | None if one.optional else kind
     parameter = _parameter(one.name, inspect.Parameter.KEYWORD_ONLY, annotation, told)
-    return parameter if one.required else parameter.replace(default=_default(one))
+    return parameter if one.required else parameter.replace(default=default(one))
 
 
 def _parameter(name: str, kind: Any, annotation: Any, told: dict[str, Any]) -> inspect.Parameter:

@@ -96,6 +96,7 @@ FEATURES = (
     Feature("studies", "distributed", "cohort", "import distributed", "pip install 'geocontact[cohort]'"),
     Feature("motion capture", "ezc3d", ".c3d files", "import ezc3d", "pip install ezc3d"),
     Feature("STEP surfaces", "cascadio", ".step meshes", "import cascadio", "pip install 'geocontact[step]'"),
+    Feature("window", "nicegui", "app", "from nicegui import ui", "pip install 'geocontact[app]'"),
     Feature("muscles", "opensim", "id --muscles", "import opensim", "pip install 'geocontact[muscles]'"),
 )
 

@@ -28,6 +28,7 @@ FAILURE = 1
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 OWN = {
+    "app": "geocontact.app.command:window",
     "demo": "geocontact.cli.demo:demo",
     "doctor": "geocontact.cli.doctor:doctor",
     "rerun": "geocontact.cli.rerun:rerun",
@@ -82,15 +83,8 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
     """Exit code of one call; with `debug` a traceback precedes the line that says what went wrong."""
     try:
         return _called(tokens, debug)
-    except MissingArgumentError as error:
-        name = str(error.argument.name) if error.argument else "an argument"
-        unit = "mesh files carry no unit; pass --unit mm, cm, m or in"
-        hint = unit if name == "--unit" else f"{_words(error)}{help_of(error.command_chain or ())}"
-        return _fail(f"{name} is missing: {hint}", USAGE_ERROR, debug)
-    except CycloptsError as error:
-        return _fail(mistyped(error, app), USAGE_ERROR, debug)
-    except InputError as error:
-        return _fail(str(error), USAGE_ERROR, debug)
+    except (CycloptsError, InputError) as error:
+        return _fail(refusal(error), USAGE_ERROR, debug)
     except ModuleNotFoundError as error:
         remedy = remedy_for(error.name or "")
         line = (
@@ -110,6 +104,16 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us
         return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
+
+
+def refusal(error: CycloptsError | InputError) -> str:
+    """What is wrong with the words of a call or with its input, in one line."""
+    if isinstance(error, MissingArgumentError):
+        name = str(error.argument.name) if error.argument else "an argument"
+        unit = "mesh files carry no unit; pass --unit mm, cm, m or in"
+        hint = unit if name == "--unit" else f"{_words(error)}{help_of(error.command_chain or ())}"
+        return f"{name} is missing: {hint}"
+    return mistyped(error, app) if isinstance(error, CycloptsError) else str(error)
 
 
 def _called(tokens: Sequence[str], debug: bool) -> int:

@@ -1,0 +1,44 @@
+"""Plain elements of HTML with texts that are never markup, as the pages of the window are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
+
+
+def element(tag: str, classes: str = "", **attributes: Any) -> Element:
+    """An element that holds others; `class_` and `for_` in `attributes` are class and for."""
+    made = Element(tag)
+    _attributed(made, classes, attributes)
+    return made
+
+
+def text(tag: str, words: str, classes: str = "", **attributes: Any) -> TextElement:
+    """An element that holds a text."""
+    made = TextElement(tag=tag, text=words)
+    _attributed(made, classes, attributes)
+    return made
+
+
+def link(words: str, address: str, classes: str = "", **attributes: Any) -> TextElement:
+    """A link of this server."""
+    return text("a", words, classes, href=address, **attributes)
+
+
+def choice(values: Iterable[tuple[str, str]], chosen: str, **attributes: Any) -> Element:
+    """A list of values with their words, one of which is chosen."""
+    made = element("select", **attributes)
+    with made:
+        for value, words in values:
+            text("option", words, value=value).props.set_bool("selected", value == chosen)
+    return made
+
+
+def _attributed(made: Element, classes: str, attributes: dict[str, Any]) -> None:
+    if classes:
+        made.classes(classes)
+    for name, value in attributes.items():
+        made.props[name.rstrip("_").replace("_", "-") if name != "defaultValue" else name] = value

@@ -1,0 +1,177 @@
+"""Pages of the window: where one starts, and the form of an analysis with its runs and results beside it."""
+
+from __future__ import annotations
+
+from itertools import count
+from pathlib import Path
+
+from fastapi import HTTPException, Request
+from fastapi.responses import FileResponse, PlainTextResponse
+from nicegui import app as site
+from nicegui import ui
+
+from geocontact.analyses.catalogue import ENTRIES, entry_of
+from geocontact.app import samples
+from geocontact.app.elements import element, link, text
+from geocontact.app.fields import Form
+from geocontact.app.runs import Queue, Run
+from geocontact.app.workplace import Workplace
+from geocontact.cli.command import summary
+
+MOST_RECENT = 12
+RECORD = "run.json"
+HERE = Path(__file__).parent
+SANDBOX = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
+"""Pages of results run their own scripts, but belong to no origin: they reach nothing of the window."""
+
+
+class Shared:
+    """What all pages share.
+
+    Parameters
+    ----------
+    queue
+        Runs of this window, those of earlier ones in its folder among them.
+    """
+
+    def __init__(self, queue: Queue) -> None:
+        self.queue = queue
+        self._uploads: dict[int, Path] = {}
+        self._keys = count(1)
+
+    def upload_to(self, folder: Path) -> str:
+        """Address that takes files into a folder, which is made when the first one arrives."""
+        key = next(self._keys)
+        self._uploads[key] = folder
+        return f"/upload/{key}"
+
+    async def take(self, key: int, name: str, request: Request) -> str:
+        """Keep a file that was dropped; its path."""
+        plain = name.replace("\\", "/").rpartition("/")[2].strip()
+        if key not in self._uploads or plain in ("", ".", "..") or "\0" in plain:
+            raise HTTPException(404)
+        folder = self._uploads[key]
+        folder.mkdir(parents=True, exist_ok=True)
+        with (folder / plain).open("wb") as kept:
+            async for piece in request.stream():
+                kept.write(piece)
+        return str(folder / plain)
+
+    def file(self, number: int, name: str) -> Path:
+        """A file of a run's results; nothing outside of their folder."""
+        run = next((each for each in self.queue.runs if each.number == number), None)
+        if run is not None:
+            found = (run.out / name).resolve()
+            if found.is_relative_to(run.out.resolve()) and found.is_file():
+                return found
+        raise HTTPException(404)
+
+
+def add_pages(queue: Queue) -> None:
+    """Declare all pages and addresses."""
+    shared = Shared(queue)
+    for run in reversed(earlier_runs(queue.folder)):
+        queue.remember(run)
+
+    @site.post("/upload/{key}")
+    async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
+        return PlainTextResponse(await shared.take(key, name, request))
+
+    @site.get("/result/{number}/{name:path}")
+    def _result(number: int, name: str) -> FileResponse:
+        return FileResponse(shared.file(number, name), headers={"content-security-policy": SANDBOX})
+
+    @ui.page("/")
+    def _start() -> None:
+        _begin("geocontact")
+        start_page(queue)
+
+    @ui.page("/form/{slug}")
+    def _form(slug: str, sample: int = 0) -> None:
+        command = slug.replace(".", " ")
+        if command not in samples.SAMPLES:
+            raise HTTPException(404)
+        _begin(command)
+        form_page(shared, command, bool(sample))
+
+
+def start_page(queue: Queue) -> None:
+    """What somebody has leads to the analysis for it."""
+    known = {each.command: each for each in ENTRIES if each.command}
+    with element("main"):
+        text("h1", "I have …")
+        for what, commands in samples.START.items():
+            text("h2", what)
+            with element("div", "have"):
+                for command in commands:
+                    _card(command, summary(known[command].load_options()))
+        text("h2", "Recent results")
+        _recent(queue)
+
+
+def form_page(shared: Shared, command: str, sampled: bool) -> None:
+    """The form of an analysis, filled with its sample where that is asked for."""
+    queue = shared.queue
+    form = Form(command)
+    if sampled:
+        one = samples.sample(command, queue.folder)
+        form = Form.of_words(one.words)
+        for earlier in one.before:
+            _run_before(queue, earlier)
+    out = free_folder(queue.folder, command)
+    with element("main"):
+        text("h1", command)
+        text("p", summary(entry_of(command).load_options()))
+        Workplace(queue, form, out, shared.upload_to(Path(f"{out}-files")))
+
+
+def free_folder(folder: Path, command: str) -> Path:
+    """A folder for results that is not there yet: area-1."""
+    name = command.replace(" ", "-")
+    return next(out for k in count(1) if not (out := folder / f"{name}-{k}").exists())
+
+
+def earlier_runs(folder: Path) -> list[Run]:
+    """Results of earlier windows, the latest ones first."""
+    found = sorted(folder.glob(f"*/{RECORD}"), key=lambda file: file.stat().st_mtime, reverse=True)
+    return [Run([], file.parent, file.parent.name, state="done") for file in found[:MOST_RECENT]]
+
+
+def _begin(title: str) -> None:
+    """Title, style and head of a page."""
+    ui.page_title(f"{title} – geocontact" if title != "geocontact" else title)
+    ui.add_css(HERE / "style.css")
+    ui.add_body_html(f"<script>{(HERE / 'script.js').read_text(encoding='utf-8')}</script>")
+    with element("header", "top"):
+        link("geocontact", "/")
+        link("all analyses", "/")
+        text("span", "runs on this machine only")
+
+
+def _card(command: str, words: str) -> None:
+    slug = command.replace(" ", ".")
+    with element("div", "card"):
+        link(command, f"/form/{slug}")
+        text("p", words)
+        with element("div", "links"):
+            link("open the form", f"/form/{slug}", aria_label=f"open the form of {command}")
+            link("try the sample", f"/form/{slug}?sample=1", aria_label=f"try the sample of {command}")
+
+
+def _recent(queue: Queue) -> None:
+    done = [run for run in reversed(queue.runs) if run.page is not None][:MOST_RECENT]
+    if not done:
+        text("p", "None yet.")
+    with element("ul"):
+        for run in done:
+            with element("li"):
+                link(run.out.name, f"/result/{run.number}/report.html", target="_blank")
+
+
+def _run_before(queue: Queue, command: str) -> None:
+    """Run the sample whose results another one reads, unless they are there or on their way."""
+    out = samples.results_of(command, queue.folder)
+    if (out / RECORD).is_file() or any(run.out == out and not run.over for run in queue.runs):
+        return
+    words = Form.of_words(samples.sample(command, queue.folder).words).words(out)
+    queue.add(words, out, f"{command}, whose results the sample reads")

@@ -1,0 +1,216 @@
+"""Runs of the command line, each in a process of its own, one after the other; what they print as they print it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import IO, Literal
+
+from geocontact.cli.main import USAGE_ERROR
+
+State = Literal["waiting", "running", "done", "refused", "failed", "cancelled"]
+ENDED: tuple[State, ...] = ("done", "refused", "failed", "cancelled")
+GRACE = 5.0
+"""s that a run has to end after it was asked to."""
+MOST_LINES = 500
+"""Lines of output that are kept of a run."""
+WARNING, WROTE = "warning: ", "results in "
+REPORT = "report.html"
+_COUNTED = re.compile(r"(?P<label>.*): (?P<done>\d+) of (?P<total>\d+) done …")
+_STAGE = re.compile(r"(?P<stage>.*) …")
+
+
+@dataclass
+class Run:
+    """One call of the command line.
+
+    Parameters
+    ----------
+    words
+        All words after `geocontact`.
+    out
+        Folder of its results.
+    title
+        What it is, for lists.
+    """
+
+    words: list[str]
+    out: Path
+    title: str
+    number: int = 0
+    state: State = "waiting"
+    stage: str = ""
+    share: float | None = None
+    warnings: list[str] = field(default_factory=list)
+    printed: list[str] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+    began: float = 0.0
+    ended: float = 0.0
+    process: subprocess.Popen[str] | None = field(default=None, repr=False)
+    _counting_since: tuple[float, float] | None = None
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, in whichever way."""
+        return self.state in ENDED
+
+    @property
+    def message(self) -> str:
+        """Why it was refused or failed: the last line on stderr that is no warning."""
+        return self.said[-1] if self.state in ("refused", "failed") and self.said else ""
+
+    @property
+    def page(self) -> Path | None:
+        """The page of its results, None where there is none."""
+        page = self.out / REPORT
+        return page if self.state == "done" and page.is_file() else None
+
+    def seconds_left(self) -> float | None:
+        """Time left if the rest goes on as fast [s]; None before that is known."""
+        if self.state != "running" or self.share is None or self._counting_since is None:
+            return None
+        at, share = self._counting_since
+        return (time.monotonic() - at) * (1.0 - self.share) / (self.share - share) if self.share > share else None
+
+    def take(self, line: str) -> None:
+        """A line of stderr: a warning, how far the work is, or what went wrong."""
+        if line.startswith(WARNING):
+            self.warnings.append(line.removeprefix(WARNING))
+        elif counted := _COUNTED.fullmatch(line):
+            self.share = int(counted["done"]) / int(counted["total"])
+            if counted["label"] != self.stage or self._counting_since is None:
+                self._counting_since = (time.monotonic(), self.share)
+            self.stage = counted["label"]
+        elif staged := _STAGE.fullmatch(line):
+            self.stage, self.share, self._counting_since = staged["stage"], None, None
+        else:
+            self.said = [*self.said, line][-MOST_LINES:]
+
+
+class Queue:
+    """Runs that wait, one that runs, and those that have ended.
+
+    Parameters
+    ----------
+    folder
+        Where they are started: paths of their words start from it.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.runs: list[Run] = []
+        self._numbers = count(1)
+        self._changed = threading.Condition()
+        self._closed = threading.Event()
+        self._worker = threading.Thread(target=self._work, daemon=True)
+        self._worker.start()
+
+    def add(self, words: Sequence[str], out: Path, title: str) -> Run:
+        """A run that begins when those before it have ended."""
+        return self.remember(Run(list(words), out, title))
+
+    def remember(self, run: Run) -> Run:
+        """Number a run and keep it; one that waits begins in its turn."""
+        with self._changed:
+            run.number = next(self._numbers)
+            self.runs.append(run)
+            self._changed.notify_all()
+        return run
+
+    def cancel(self, run: Run) -> None:
+        """End a run with all its processes; what it had begun to write is removed."""
+        with self._changed:
+            if run.over:
+                return
+            run.state = "cancelled"
+            process = run.process
+            self._changed.notify_all()
+        if process is not None:
+            _end(process)
+        run.ended = time.monotonic()
+
+    def close(self) -> None:
+        """Cancel all."""
+        self._closed.set()
+        for run in reversed(self.runs):
+            self.cancel(run)
+        with self._changed:
+            self._changed.notify_all()
+
+    def _next(self) -> Run | None:
+        return next((run for run in self.runs if run.state == "waiting"), None)
+
+    def _work(self) -> None:
+        while not self._closed.is_set():
+            with self._changed:
+                self._changed.wait_for(lambda: self._closed.is_set() or self._next() is not None)
+                run = self._next()
+                if run is None or self._closed.is_set():
+                    return
+                _start(run, self.folder)
+            _finish(run)
+
+
+def _start(run: Run, folder: Path) -> None:
+    """Start the process, in a group of its own, so that all of it can be ended."""
+    run.state, run.began = "running", time.monotonic()
+    run.process = subprocess.Popen(
+        [sys.executable, "-m", "geocontact.app.child", *run.words],
+        cwd=folder,
+        env=os.environ | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8"},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        start_new_session=os.name != "nt",
+    )
+
+
+def _finish(run: Run) -> None:
+    """Read what it prints until it has ended."""
+    process = run.process
+    if process is None or process.stdout is None or process.stderr is None:
+        return
+    reader = threading.Thread(target=_each_line, args=(process.stdout, run.printed.append), daemon=True)
+    reader.start()
+    _each_line(process.stderr, run.take)
+    reader.join()
+    code = process.wait()
+    run.ended = time.monotonic()
+    if run.state == "running":
+        wrote = any(line.startswith(WROTE) for line in run.printed)  # a verdict against a device ends with 1 as well
+        run.state = "refused" if code == USAGE_ERROR else "done" if code == 0 or wrote else "failed"
+
+
+def _each_line(stream: IO[str], take: Callable[[str], None]) -> None:
+    with stream:
+        for line in stream:
+            if line.strip():
+                take(line.rstrip())
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """Ask a process to end, which removes what it had begun to write; then end all that it started."""
+    if sys.platform == "win32":
+        taskkill = shutil.which("taskkill") or "taskkill"
+        subprocess.run([taskkill, "/T", "/F", "/PID", str(process.pid)], check=False, capture_output=True)
+    else:
+        process.terminate()
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(GRACE)
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.wait()

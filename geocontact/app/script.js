@@ -1,0 +1,19 @@
+const send = async (input, files) => {
+  const target = document.getElementById(input.dataset.target), names = [];
+  for (const file of files) {
+    const answer = await fetch(input.dataset.to + '?name=' + encodeURIComponent(file.name), { method: 'POST', body: file });
+    if (answer.ok) names.push(await answer.text());
+  }
+  if (!names.length) return;
+  const many = target.tagName === 'TEXTAREA';
+  target.value = many ? [target.value, ...names].filter(Boolean).join('\n') : names[0];
+  target.dispatchEvent(new Event('input', { bubbles: true }));
+};
+document.addEventListener('change', e => { if (e.target.matches('.pick input')) { send(e.target, e.target.files); } });
+for (const kind of ['dragover', 'dragleave', 'drop']) document.addEventListener(kind, e => {
+  const row = e.target.closest && e.target.closest('.field'), pick = row && row.querySelector('.pick input');
+  if (kind !== 'dragleave') e.preventDefault();
+  if (!pick || pick.disabled) return;
+  row.classList.toggle('over', kind === 'dragover');
+  if (kind === 'drop') send(pick, e.dataTransfer.files);
+});

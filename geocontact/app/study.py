@@ -1,0 +1,54 @@
+"""The study that a filled form begins: a description that `geocontact cohort` reads."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from geocontact.analyses.frame.calls import key
+from geocontact.app.fields import Field, Form
+from geocontact.cli.command import FORMS
+
+HEAD = """\
+# A study of one trial. To make it one of many: name the files by a pattern, files = "data/{{subject}}_{{trial}}.csv",
+# and write "{{file}}" in place of a path below. [sweep] lists values of an option that every trial is evaluated with.
+analysis = {command}
+
+[options]
+"""
+
+
+def study_of(form: Form, folder: Path) -> str:
+    """Text of the description; paths start from `folder`, options are as they are typed on the command line."""
+    lines = []
+    for one in form.fields:
+        value = form.value(one)
+        if one.name not in FORMS and not form.without_effect(one) and one.typed(value, form.unit(one)):
+            lines.append(f"{key(one.one)} = {_toml(one, form, folder)}")
+    return HEAD.format(command=json.dumps(form.command)) + "\n".join(lines) + "\n"
+
+
+def _toml(one: Field, form: Form, folder: Path) -> str:
+    """A value as TOML writes it: a number where the option is one, a list where there may be several."""
+    value = form.value(one)
+    if isinstance(value, bool):
+        return json.dumps(value)
+    texts = [word.removeprefix(f"{one.spelled}=") for word in one.typed(value, form.unit(one))]
+    if one.kind in ("file", "files"):
+        texts = [_absolute(text, folder) for text in texts]
+    if one.several:
+        return json.dumps(texts, ensure_ascii=False)
+    kind = one.one.typed.kind if one.one.typed is not None else one.one.kind
+    return texts[0] if kind in (int, float) and _is_toml_number(texts[0]) else json.dumps(texts[0], ensure_ascii=False)
+
+
+def _absolute(text: str, folder: Path) -> str:
+    """A path that holds wherever the description lies; what is no file here stays as it is typed."""
+    return (folder / text).as_posix() if (folder / text).exists() else text
+
+
+def _is_toml_number(text: str) -> bool:
+    try:
+        return repr(float(text)) not in ("inf", "-inf", "nan") and text[:1] not in "+."
+    except ValueError:
+        return False

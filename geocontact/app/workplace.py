@@ -1,0 +1,232 @@
+"""Form, call, runs and results of an analysis on one page."""
+
+from __future__ import annotations
+
+import json
+from itertools import count
+from pathlib import Path
+
+from nicegui import ui
+from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
+
+from geocontact.app import calls
+from geocontact.app.elements import element, link, text
+from geocontact.app.fields import Form, shown
+from geocontact.app.form_view import VALUE, FormView
+from geocontact.app.runs import Queue, Run
+from geocontact.app.study import study_of
+from geocontact.cli.folders import OUT
+
+LOOK = 0.3
+"""s between two looks at the runs and at what was typed."""
+NEXT_TO = "report.html"
+
+
+class Workplace:
+    """The form of an analysis, what it stands for, its runs and the pages of its results.
+
+    Parameters
+    ----------
+    queue
+        Takes the runs.
+    form
+        Filled with a sample or empty.
+    out
+        Folder for the results.
+    upload
+        Address that takes files.
+    """
+
+    def __init__(self, queue: Queue, form: Form, out: Path, upload: str) -> None:
+        self.queue, self.form, self.out = queue, form, out
+        self.words: list[str] = []
+        self._dirty = True
+        self._panels: dict[int, RunPanel] = {}
+        with element("div", "work"):
+            with element("div", "fields"):
+                self.view = FormView(form, upload, self._changed)
+            with element("div", "side"):
+                self._beside()
+        self.pages = element("div", "pages")
+        self.command.text = shown(self.form.words(self.out))
+        ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
+
+    def run(self) -> None:
+        """A run of what is filled in; its results lie in a folder of their own."""
+        self.words = self.form.words(self.out)
+        own = [run for run in self.queue.runs if run.out == self.out]
+        if own and own[-1].state in ("done", "waiting", "running"):
+            self.out = _next_folder(self.out)
+            self.folder.props["defaultValue"] = str(self.out)
+            ui.run_javascript(f"document.getElementById('{self.folder.html_id}').value = {json.dumps(str(self.out))}")
+            self.words = self.form.words(self.out)
+        run = self.queue.add(self.words, self.out, self.out.name)
+        self._panels[run.number] = RunPanel(run, self)
+        self._dirty = True
+        self._look()
+
+    def show(self, run: Run, beside: bool) -> None:
+        """The page of a result in a frame of its own, in place of those that are shown, or beside the first one."""
+        if not beside:
+            self.pages.clear()
+        elif len(self.pages.default_slot.children) > 1:
+            self.pages.default_slot.children[-1].delete()
+        with self.pages, element("section"):
+            text("h2", run.title)
+            element(
+                "iframe",
+                src=f"/result/{run.number}/{NEXT_TO}",
+                title=f"results in {run.title}",
+                sandbox="allow-scripts allow-downloads",
+            )
+
+    def make_study(self) -> None:
+        """Write the study that the form begins, and say how it is run."""
+        file = self.queue.folder / f"{self.out.name}-study.toml"
+        described = study_of(self.form, self.queue.folder)
+        file.write_text(described, encoding="utf-8")
+        self.study.text = f"{described}\n# {shown(['cohort', str(file), OUT, str(file.parent / file.stem)])}"
+
+    def _beside(self) -> None:
+        """What stands beside the form."""
+        with element("div", "field"):
+            label = text("label", "folder for the results")
+            with element("div", "in"):
+                self.folder = element("input", type="text", defaultValue=str(self.out), spellcheck="false")
+                self.folder.on("input", lambda e: self._set_out(str(e.args)), js_handler=VALUE, throttle=LOOK)
+            label.props["for"] = self.folder.html_id
+        with element("div", "links"):
+            text("button", "Run", "main", type="button").on("click", self.run)
+        self.missing = text("p", "", "why", role="status")
+        text("h2", "Command line")
+        self.command = text("pre", "", tabindex="0", aria_label="command line")
+        self._copy("copy the command line", self.command)
+        text("h2", "Python")
+        self.python = text("pre", "", tabindex="0", aria_label="Python lines")
+        self._copy("copy the Python lines", self.python)
+        text("h2", "Runs")
+        self.runs = element("div", "runs", aria_live="polite")
+        text("button", "make a study of this", type="button").on("click", self.make_study)
+        self.study = text("pre", "", tabindex="0", aria_label="study")
+
+    def _copy(self, words: str, source: Element) -> None:
+        script = f"() => navigator.clipboard.writeText(document.getElementById('{source.html_id}').textContent)"
+        text("button", words, type="button").on("click", js_handler=script)
+
+    def _changed(self) -> None:
+        self._dirty = True
+
+    def _set_out(self, value: str) -> None:
+        if value.strip():
+            self.out = self.queue.folder / value.strip()
+        self._dirty = True
+
+    def _look(self) -> None:
+        """Follow the runs, and say what the form stands for after a change."""
+        for run in self.queue.runs:
+            if run.number not in self._panels and not run.over:
+                self._panels[run.number] = RunPanel(run, self)
+        ended = [panel.run for panel in self._panels.values() if panel.refresh()]
+        self._dirty = self._dirty or bool(ended)
+        if self._dirty:
+            self._dirty = False
+            self._say()
+        for run in ended:
+            if run.message and run.words == self.words:
+                self.missing.text = self.view.refresh(run.message, only_touched=False)
+                self.view.go_to(run.message)
+            elif run.page is not None and run.words == self.words:
+                self.show(run, beside=False)
+
+    def _say(self) -> None:
+        """Show the call, and a mistake at the field that it names."""
+        words = self.form.words(self.out)
+        self.command.text = shown(words)
+        lines, wrong = calls.checked(words, self.form.command, self.out)
+        self.python.text = lines or ("…" if wrong else "the command line only")
+        self.missing.text = self.view.refresh(wrong)
+
+
+class RunPanel:
+    """A run on the page: how far it is, its warnings, what it printed, and what can be done with it.
+
+    Parameters
+    ----------
+    run, place
+        What is shown, and the page that it belongs to.
+    """
+
+    def __init__(self, run: Run, place: Workplace) -> None:
+        self.run, self._place = run, place
+        self._seen: tuple[object, ...] = ()
+        with place.runs, element("div", "run") as self._panel:
+            self._head = text("strong", "")
+            self._bar = element("progress", max=1, aria_label=f"progress of {run.title}")
+            self._lines = element("ul")
+            with element("div", "links"):
+                self._cancel = text("button", "cancel", type="button", aria_label=f"cancel {run.title}")
+                self._cancel.on("click", self._end)
+        self._links: list[TextElement] = []
+
+    def refresh(self) -> bool:
+        """Show what is new; whether the run has ended since the last look."""
+        run = self.run
+        left = run.seconds_left()
+        seen = (run.state, run.stage, run.share, len(run.warnings), len(run.printed), left and round(left))
+        if seen == self._seen:
+            return False
+        ended = run.over and self._seen[:1] != seen[:1]
+        self._seen = seen
+        self._head.text = ": ".join(part for part in (run.title, _state(run, left)) if part)
+        self._bar.set_visibility(run.state == "running")
+        self._bar.props.set_optional("value", run.share)
+        self._lines.clear()
+        with self._lines:
+            for line in (*(f"warning: {each}" for each in run.warnings), *run.printed, *filter(None, [run.message])):
+                text("li", line, "bad" if line == run.message else "")
+        if ended:
+            self._ended()
+        return ended
+
+    def _ended(self) -> None:
+        """Offer its page in place of what ended it."""
+        self._cancel.delete()
+        if self.run.page is None:
+            return
+        with self._panel, element("div", "links"):
+            text("button", "show", type="button", aria_label=f"show {self.run.title}").on(
+                "click", lambda: self._place.show(self.run, beside=False)
+            )
+            text("button", "show beside", type="button", aria_label=f"show {self.run.title} beside").on(
+                "click", lambda: self._place.show(self.run, beside=True)
+            )
+            link("in a tab of its own", f"/result/{self.run.number}/{NEXT_TO}", target="_blank")
+
+    async def _end(self) -> None:
+        from nicegui import run as aside
+
+        await aside.io_bound(self._place.queue.cancel, self.run)
+
+
+def _state(run: Run, left: float | None) -> str:
+    """State, stage and time left in words."""
+    parts = [run.state, run.stage if run.state == "running" else ""]
+    if run.state == "running" and run.share is not None:
+        parts.append(f"{100 * run.share:.0f} %")
+    if left is not None:
+        parts.append(f"{_duration(left)} left")
+    if run.over and run.ended > run.began > 0.0:
+        parts.append(_duration(run.ended - run.began))
+    return ", ".join(part for part in parts if part)
+
+
+def _duration(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100.0 else f"{seconds / 60.0:.0f} min"
+
+
+def _next_folder(out: Path) -> Path:
+    """The next folder of that name and number that is not there: area-2 after area-1."""
+    stem, dash, last = out.name.rpartition("-")
+    base = stem if dash and last.isdigit() else out.name
+    return next(found for k in count(2) if not (found := out.with_name(f"{base}-{k}")).exists())

@@ -1,0 +1,171 @@
+"""A form stands for the words of the command line, which its own parser reads, and for the same call in Python."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.catalogue import ENTRIES, entry_of
+from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.options import Options, declared
+from geocontact.app import calls, samples
+from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
+from geocontact.app.study import study_of
+from geocontact.cli.main import app
+from geocontact.data.errors import InputError
+
+COMMANDS = sorted(each.command for each in ENTRIES if each.command)
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Files of samples; results that others read are there in name only."""
+    return tmp_path_factory.mktemp("samples")
+
+
+def words_of(command: str, home: Path) -> list[str]:
+    """The sample's own words; what it reads of other samples is a file without content."""
+    one = samples.sample(command, home)
+    for word in one.words:
+        for part in word.split("="):
+            path = Path(part)
+            if any(path.is_relative_to(samples.results_of(each, home)) for each in one.before) and not path.exists():
+                (path if not path.suffix else path.parent).mkdir(parents=True, exist_ok=True)
+                if path.suffix:
+                    path.touch()
+    return [*one.words, "--out", str(home / "out")]
+
+
+def parsed(words: list[str]) -> Options:
+    """Options as the command line reads them, found without the form."""
+    command, bound, _ = app.parse_args(words, exit_on_error=False, print_error=False)
+    found: Options = command.read(*bound.args, **bound.kwargs)  # type: ignore[attr-defined]
+    return found
+
+
+def test_every_analysis_has_a_sample_and_a_place_on_the_start_page() -> None:
+    assert sorted(samples.SAMPLES) == COMMANDS
+    assert sorted(command for commands in samples.START.values() for command in commands) == COMMANDS
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_sample_through_the_form_is_the_same_call(command: str, home: Path) -> None:
+    """Words typed, filled into the form and taken out again have the same options."""
+    words = words_of(command, home)
+    form = Form.of_words(words)
+    assert form.command == command
+    again = form.words(home / "out")
+    assert parsed(again) == parsed(words)
+    assert shlex.split(shown(again))[1:] == again
+    assert calls.checked(again, command, home)[1] == ""
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_option_is_a_field(command: str) -> None:
+    options = entry_of(command).load_options()
+    names = {one.name for one in fields_of(command)}
+    assert {one.name for one in declared(options) if one.settable} < names
+    assert all(one.words and one.label for one in fields_of(command))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_python_lines_are_the_same_call(command: str, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are run with jobs that only make their options: equal to those of the command line."""
+    words = words_of(command, home)
+    lines = calls.python_lines(words, command, home / "out")
+    entry = entry_of(command)
+    if not entry.exported:
+        assert lines == ""
+        return
+    job = entry.load_job()
+    made: list[Options] = []
+
+    class Ran:
+        def write(self, out: str) -> None:
+            assert out == str(home / "out")
+
+    def noted(*inputs: Any, **given: Any) -> Ran:
+        names = [one.name for one in declared(job.options) if one.positional]
+        made.append(job.options(**dict(zip(names, inputs, strict=False)), **given))
+        return Ran()
+
+    place = gc if not entry.room else getattr(gc, entry.room)
+    monkeypatch.setitem(vars(place), entry.name, noted)
+    if entry.room:
+        monkeypatch.setattr(
+            type(place),
+            "__getattribute__",
+            lambda self, name: vars(self)[name] if name != "__dict__" else object.__getattribute__(self, name),
+        )
+    exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    (python,), typed = made, parsed(words)
+    assert vars(python) == {name: value for name, value in vars(typed).items() if name in vars(python)}
+    assert not any(typed.given(name) for name in vars(typed).keys() - vars(python).keys())
+
+
+def test_units_are_chosen_and_texts_that_say_theirs_stay() -> None:
+    form = Form("area", {"threshold": "1, 4", "congruence": "5 cm"}, {"threshold": "cm", "congruence": "in"})
+    assert {"--threshold=1cm,4cm", "--congruence=5 cm"} <= set(form.words("out"))
+    back = Form.of_words(["area", "--threshold", "4mm", "--out", "x"])
+    assert (back.values["threshold"], back.units["threshold"]) == ("4", "mm")
+
+
+@pytest.mark.parametrize("read", UNITS_OF)
+def test_every_unit_that_can_be_chosen_is_read(read: str) -> None:
+    """And no reader of another name takes them for something else: 1 in each unit is as much as its SI value."""
+    factors = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "kg": 1.0, "g": 1e-3, "lb": 0.45359237, "%": 0.01}
+    factors |= {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "psi": 6894.757293168361}
+    factors["mmHg"] = 133.322387415
+    for unit in filter(None, UNITS_OF[read]):
+        found = getattr(quantities, read)(f"0.5{unit}", "x")
+        assert np.ravel(found) == pytest.approx([0.5 * factors[unit]], rel=1e-9), unit
+
+
+def test_fields_without_effect_are_neither_enabled_nor_typed() -> None:
+    form = Form("area", {"modulus": "500MPa"})
+    field = next(one for one in form.fields if one.name == "modulus")
+    assert form.without_effect(field) == "needs --pressure" and "--modulus=500MPa" not in form.words("out")
+    form.values["pressure"] = True
+    assert form.without_effect(field) == "" and "--modulus=500MPa" in form.words("out")
+    rate = next(one for one in form.fields if one.name == "rate")
+    assert form.without_effect(rate) == ""
+    form.values["sweep"] = "flexion=0:90:1"
+    assert form.without_effect(rate) == "has no effect with --sweep"
+
+
+def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
+    form = Form.of_words(words_of("area", home))
+    for name, wrong in (("threshold", "4 parsec"), ("side", "above"), ("moving", "no.stl"), ("draws", "many")):
+        filled = Form("area", form.values | {name: wrong} | ({"pose_sd": "t=1"} if name == "draws" else {}))
+        lines, message = calls.checked(filled.words("out"), "area", "out")
+        at = filled.at(message)
+        assert message and not lines and at is not None and at.name == name, (name, message)
+    with pytest.raises(InputError, match="4 parsec"):
+        calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
+
+
+def test_the_names_of_options_are_not_found_in_longer_ones() -> None:
+    form = Form("area")
+    at = form.at("--unit-moving: 'x' is not a unit")
+    assert at is not None and at.name == "unit_moving"
+
+
+@pytest.mark.parametrize("command", [each.command for each in ENTRIES if each.of_trials])
+def test_a_study_of_a_form_is_read_by_cohort(command: str, home: Path, tmp_path: Path) -> None:
+    """The options of its one trial are those of the form."""
+    from geocontact.study.description import read_study_file
+
+    words = words_of(command, home)
+    form = Form.of_words(words)
+    file = tmp_path / "study.toml"
+    file.write_text(study_of(form, tmp_path), encoding="utf-8")
+    study = read_study_file(file)
+    options = entry_of(command).load_options()
+    known = {one.spelled.key or one.name: one for one in declared(options)}
+    given = {known[name].name: known[name].read(value) for name, value in study.options.items()}
+    assert study.analysis == command and options(**given) == parsed(words)

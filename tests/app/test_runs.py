@@ -1,0 +1,113 @@
+"""Runs in processes of their own: what they print, their order, and that a cancelled one leaves nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from geocontact.app import samples
+from geocontact.app.fields import Form, shown
+from geocontact.app.runs import Queue, Run
+from geocontact.app.sample_files import write_files
+
+PATIENCE = 240.0  # s on a busy machine
+
+
+@pytest.fixture
+def queue(tmp_path: Path) -> Iterator[Queue]:
+    made = Queue(tmp_path)
+    yield made
+    made.close()
+
+
+def until(run: Run, *states: str) -> None:
+    end = time.monotonic() + PATIENCE
+    while run.state not in states:
+        assert time.monotonic() < end and not (run.over and run.state not in states), (run.state, run.said)
+        time.sleep(0.02)
+
+
+def words(command: str, folder: Path, out: str, **more: str | bool) -> list[str]:
+    form = Form.of_words(samples.sample(command, folder).words)
+    form.values |= more
+    return form.words(folder / out)
+
+
+def test_numbers_are_those_of_the_command_line(queue: Queue, tmp_path: Path) -> None:
+    """The line that is shown, given to the shell with the program's name replaced, writes the same table."""
+    run = queue.add(words("fit", tmp_path, "window"), tmp_path / "window", "fit")
+    line = shown(words("fit", tmp_path, "shell")).partition(" ")[2]
+    program = f'"{sys.executable}" -c "from geocontact.cli.main import main; main()"'
+    done = subprocess.run(f"{program} {line}", shell=True, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    until(run, "done")
+    found = [json.loads((tmp_path / name / "fit.json").read_text("utf-8")) for name in ("window", "shell")]
+    assert found[0] == found[1] and "radius" in str(found[0])
+    assert run.page == tmp_path / "window" / "report.html" and any("sphere" in line for line in run.printed)
+
+
+def test_what_is_refused_says_why_and_warnings_come(queue: Queue, tmp_path: Path) -> None:
+    wrong = queue.add(words("fit", tmp_path, "a", unit="m"), tmp_path / "a", "a")
+    until(wrong, "refused")
+    assert "too large" in wrong.message and not (tmp_path / "a").exists() and wrong.page is None
+
+
+def test_how_far_it_is_and_the_time_left() -> None:
+    run = Run([], Path("out"), "x", state="running")
+    for line in ("warning: look", "area: frames …", "pairs: 2 of 10 done …"):
+        run.take(line)
+    assert (run.warnings, run.stage, run.share) == (["look"], "pairs", 0.2)
+    time.sleep(0.2)
+    run.take("pairs: 6 of 10 done …")
+    left = run.seconds_left()
+    assert left is not None and 0.15 < left < 2.0  # 4 of 10 in 0.2 s or a little more: the other 4 take as long
+    run.take("x.stl: is damaged; mend it")
+    run.state = "failed"
+    assert run.message == "x.stl: is damaged; mend it"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="groups of processes of POSIX")
+def test_cancel_ends_all_processes_and_leaves_nothing(queue: Queue, tmp_path: Path) -> None:
+    """Two runs of minutes: one with worker processes is cancelled while it runs, the other one before it begins."""
+    write_files(tmp_path / "sample-files")
+    before = sorted(tmp_path.rglob("*"))
+    first = queue.add(
+        ["gap", "benchmark", "--system=all", "--cases=5", "--jobs=2", f"--out={tmp_path / 'first'}"],
+        tmp_path / "first",
+        "first",
+    )
+    second = queue.add(words("fit", tmp_path, "second"), tmp_path / "second", "second")
+    until(first, "running")
+    process = first.process
+    assert process is not None
+    end = time.monotonic() + PATIENCE
+    while len(group(process.pid)) < 2 and time.monotonic() < end:
+        time.sleep(0.1)
+    assert len(group(process.pid)) >= 2, "its workers have begun"
+    assert second.state == "waiting"
+    queue.cancel(second)
+    queue.cancel(first)
+    until(first, "cancelled")
+    assert not alive(group(process.pid))
+    assert sorted(tmp_path.rglob("*")) == before and second.process is None
+
+
+def group(leader: int) -> list[int]:
+    """Processes of a group."""
+    told = subprocess.run(["ps", "-eo", "pgid=,pid="], capture_output=True, text=True).stdout
+    return [int(pid) for pgid, pid in (line.split() for line in told.splitlines()) if int(pgid) == leader]
+
+
+def alive(processes: list[int]) -> bool:
+    """Whether one of them still runs; those that nobody has asked after yet do not."""
+    states = [
+        subprocess.run(["ps", "-o", "stat=", "-p", str(pid)], capture_output=True, text=True) for pid in processes
+    ]
+    return any(state.stdout.strip() and not state.stdout.startswith("Z") for state in states)

@@ -1,0 +1,265 @@
+"""The window in a browser: forms, runs, results, mistakes, cancelling; offline, by keyboard, on a phone."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+import pytest
+
+from geocontact.analyses.catalogue import ENTRIES
+from geocontact.analyses.frame.rerun import differing, results_of
+from geocontact.app import samples
+from geocontact.app.fields import Form, shown
+from geocontact.cli.demo import sample_folder
+from tests.app.conftest import ENTRY, Window
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+PATIENCE = 300.0  # s on a busy machine
+QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
+LONG = ("shoulder study", "prosthesis calibrate", "prosthesis design", "sit-to-stand calibrate")
+COMMANDS = sorted(each.command for each in ENTRIES if each.command)
+
+
+def marked(command: str) -> object:
+    """Quick ones run with every change."""
+    marks = [] if command in QUICK else [pytest.mark.slow]
+    return pytest.param(command, marks=[*marks, *([pytest.mark.long] if command in LONG else [])])
+
+
+def slug(command: str) -> str:
+    return command.replace(" ", ".")
+
+
+def run_words(words: list[str], folder: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", ENTRY, *words], cwd=folder, capture_output=True, text=True)
+    assert done.returncode in (0, 1), done.stderr
+
+
+def fill(tab: Page, form: Form) -> None:
+    """Everything that a form holds, as a hand does."""
+    tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
+    for one in form.fields:
+        value = form.values.get(one.name)
+        field = tab.locator(f'[name="{one.name}"]')
+        if value is None:
+            continue
+        if one.kind == "flag":
+            field.set_checked(bool(value))
+        elif one.kind == "choice":
+            field.select_option(str(value))
+        else:
+            field.fill(str(value))
+        if one.name in form.units:
+            tab.locator(f'[name="{one.name}-unit"]').select_option(form.units[one.name])
+
+
+def until(tab: Page, script: str, seconds: float = PATIENCE) -> None:
+    end = time.monotonic() + seconds
+    while not tab.evaluate(script):
+        assert time.monotonic() < end, (script, tab.locator(".side").inner_text())
+        tab.wait_for_timeout(50)
+
+
+def settled(tab: Page, words: list[str]) -> None:
+    """The page shows these words as its command line."""
+    line = json.dumps(shown(words))
+    until(tab, f"document.querySelector('[aria-label=\"command line\"]').textContent === {line}", 30.0)
+
+
+def ended(tab: Page) -> str:
+    """State of the last run once it has ended."""
+    last = "[...document.querySelectorAll('.run strong')].at(-1)?.textContent ?? ''"
+    until(tab, f"/: (done|refused|failed|cancelled)/.test({last})")
+    return str(tab.evaluate(last))
+
+
+@pytest.mark.parametrize("command", [marked(command) for command in COMMANDS])
+def test_a_form_filled_by_hand_gives_the_numbers_of_the_command(command: str, window: Window) -> None:
+    """The line that the page shows, run by itself into another folder, writes the same files."""
+    for earlier in samples.before_of(command):
+        if not (samples.results_of(earlier, window.folder) / "run.json").is_file():
+            form = Form.of_words(samples.sample(earlier, window.folder).words)
+            run_words(form.words(samples.results_of(earlier, window.folder)), window.folder)
+    form = Form.of_words(samples.sample(command, window.folder).words)
+    tab = window.tab(f"form/{slug(command)}")
+    fill(tab, form)
+    out = tab.get_by_label("folder for the results").input_value()
+    expected = form.words(out)
+    settled(tab, expected)
+    tab.get_by_role("button", name="Run", exact=True).click()
+    assert ": done" in ended(tab), tab.locator(".side").inner_text()
+    twin = Path(f"{out}-twin")
+    run_words([*expected[:-1], f"--out={twin}"], window.folder)
+    before, after = results_of(Path(out)), results_of(twin)
+    assert len(before) > 1 and before.keys() == after.keys()
+    assert differing(before, after, Path(out), twin) == []
+    if (Path(out) / "report.html").is_file():
+        frame = tab.frame_locator("iframe")
+        assert frame.locator("body").inner_text(timeout=60_000).strip()
+    tab.close()
+
+
+def test_nothing_is_asked_of_another_machine(window: Window) -> None:
+    """Of all pages that were opened before, the start page among them."""
+    window.tab().close()
+    asked = {urlsplit(url).netloc for url in window.requests if not url.startswith(("data:", "blob:"))}
+    assert asked == {urlsplit(window.home).netloc}
+
+
+def test_a_second_user_is_refused(window: Window, browser: Browser) -> None:
+    """Another browser with the address that was used, static files and the socket; and a name that leads here."""
+    other = browser.new_context()
+    tab = other.new_page()
+    answer = tab.goto(window.used)
+    assert answer is not None and answer.status == 403 and "open the address" in tab.content()
+    other.close()
+    port = urlsplit(window.home).port
+    cookie = "; ".join(f"{each['name']}={each['value']}" for each in window.context.cookies())
+    inside = [url for url in window.requests if "_nicegui" in url and url.endswith((".js", ".css"))]
+    assert inside
+    for path in ("/", urlsplit(inside[0]).path, "/_nicegui_ws/socket.io/?EIO=4&transport=polling", "/upload/1?name=a"):
+        for headers in (
+            {},
+            {"Host": "evil.example", "Cookie": cookie},
+            {"Origin": "http://evil.example", "Cookie": cookie},
+        ):
+            assert port is not None
+            connection = http.client.HTTPConnection("127.0.0.1", port)
+            connection.request("POST" if "upload" in path else "GET", path, headers=headers)
+            found = connection.getresponse()
+            assert found.status == 403 and b"<" not in found.read(), (path, headers)
+            connection.close()
+
+
+def test_it_listens_to_this_machine_only(window: Window) -> None:
+    port = urlsplit(window.home).port
+    with open("/proc/net/tcp", encoding="ascii") as table:
+        rows = [
+            line.split()[1] for line in table if line.split()[3] == "0A" and line.split()[1].endswith(f":{port:04X}")
+        ]
+    assert rows == [f"0100007F:{port:04X}"]
+
+
+def test_a_wrong_input_is_said_at_its_field(window: Window) -> None:
+    tab = window.tab("form/area?sample=1")
+    tab.locator('[name="threshold"]').fill("4 parsec")
+    bad = tab.locator(".field", has=tab.locator('[name="threshold"]')).locator(".bad")
+    until(tab, "[...document.querySelectorAll('.bad')].some(each => each.textContent.includes('4 parsec'))", 20.0)
+    assert "4 parsec" in (bad.text_content() or "") and tab.locator(".bad:not(:empty)").count() == 1
+    assert tab.locator('[name="threshold"]').get_attribute("aria-invalid") == "true"
+    tab.locator('[name="threshold"]').fill("4")
+    until(tab, "[...document.querySelectorAll('.bad')].every(each => !each.textContent)", 20.0)
+    tab.locator('[name="unit"]').select_option("m")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    assert ": refused" in ended(tab)
+    until(
+        tab, "[...document.querySelectorAll('.field .bad')].some(each => each.textContent.includes('too large'))", 20.0
+    )
+    assert not list(window.folder.glob("**/.geocontact-*"))
+    tab.close()
+
+
+def test_fields_are_enabled_when_they_have_an_effect(window: Window) -> None:
+    tab = window.tab("form/area")
+    tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
+    assert tab.locator('[name="modulus"]').is_disabled()
+    tab.locator('[name="pressure"]').check()
+    until(tab, "!document.querySelector('[name=modulus]').disabled", 20.0)
+    tab.locator('[name="pressure"]').uncheck()
+    until(tab, "document.querySelector('[name=modulus]').disabled", 20.0)
+    tab.close()
+
+
+def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
+    """Two pages side by side, the words copied, and a study of them."""
+    tab = window.tab("form/elbow.design?sample=1")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    assert ": done" in ended(tab)
+    first = tab.locator(".run strong").last.text_content() or ""
+    tab.locator('[name="limit"]').fill("8")
+    tab.wait_for_timeout(600)
+    tab.get_by_role("button", name="Run", exact=True).click()
+    until(tab, "document.querySelectorAll('.run').length === 2", 20.0)
+    second = ended(tab)
+    assert ": done" in second and second.partition(":")[0] != first.partition(":")[0]
+    tab.get_by_role("button", name=f"show {first.partition(':')[0]} beside", exact=True).click()
+    until(tab, "document.querySelectorAll('.pages iframe').length === 2", 20.0)
+    boxes = [tab.locator(".pages iframe").nth(k).bounding_box() for k in (0, 1)]
+    assert boxes[0] is not None and boxes[1] is not None and boxes[0]["y"] == boxes[1]["y"]
+    tab.get_by_role("button", name="copy the command line").click()
+    tab.wait_for_timeout(200)
+    assert tab.evaluate("navigator.clipboard.readText()") == tab.get_by_label("command line", exact=True).text_content()
+    tab.get_by_role("button", name="make a study of this").click()
+    until(tab, "document.querySelector('pre[aria-label=study]').textContent.includes('analysis')", 20.0)
+    files = sorted(window.folder.glob("elbow-design-*-study.toml"))
+    assert files and 'limit = "8"' not in files[-1].read_text("utf-8").partition("[options]")[0]
+    tab.close()
+
+
+def test_a_file_that_is_chosen_lies_in_a_folder_of_the_run(window: Window, tmp_path: Path) -> None:
+    cup = tmp_path / "a cup.stl"
+    cup.write_bytes((sample_folder() / "cup_r24.stl").read_bytes())
+    tab = window.tab("form/fit")
+    tab.get_by_label("choose a file for mesh").set_input_files(cup)
+    until(tab, "document.querySelector('[name=mesh]').value.endsWith('a cup.stl')", 20.0)
+    there = Path(tab.locator('[name="mesh"]').input_value())
+    assert there.read_bytes() == cup.read_bytes() and there.parent.name.endswith("-files")
+    until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('a cup.stl')", 20.0)
+    tab.close()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="groups of processes of POSIX")
+def test_cancel_leaves_nothing(window: Window) -> None:
+    tab = window.tab("form/gap.benchmark?sample=1")
+    tab.locator('[name="cases"]').fill("50")
+    tab.wait_for_timeout(600)
+    out = Path(tab.get_by_label("folder for the results").input_value())
+    tab.get_by_role("button", name="Run", exact=True).click()
+    until(tab, "/: running/.test(document.querySelector('.run strong')?.textContent ?? '')", 60.0)
+    tab.wait_for_timeout(3000)
+    tab.get_by_role("button", name=f"cancel {out.name}", exact=True).click()
+    assert ": cancelled" in ended(tab)
+    assert not out.exists() and not list(window.folder.glob(".geocontact-*"))
+    tab.close()
+
+
+def test_by_keyboard_alone(window: Window) -> None:
+    """Tab reaches every field that is enabled and Run, in the order of the page; Enter runs."""
+    tab = window.tab("form/prosthesis.keel?sample=1")
+    tab.locator("body").click()
+    reached = []
+    for _ in range(40):
+        tab.keyboard.press("Tab")
+        reached.append(tab.evaluate("document.activeElement.name || document.activeElement.textContent"))
+        if reached[-1] == "Run":
+            break
+    assert reached[-1] == "Run" and "foot" in reached
+    tab.keyboard.press("Enter")
+    assert ": done" in ended(tab)
+    tab.close()
+
+
+@pytest.mark.parametrize("path", ["", "form/area?sample=1", "form/knee.settle?sample=1", "form/mat"])
+def test_labels_and_no_horizontal_bar_on_a_phone(path: str, window: Window) -> None:
+    tab = window.tab(path)
+    tab.set_viewport_size({"width": 390, "height": 844})
+    tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
+    tab.wait_for_timeout(300)
+    assert tab.evaluate("document.documentElement.scrollWidth") <= 390
+    nameless = "[...document.querySelectorAll('input, select, textarea')].filter(e => !e.labels.length && !e.ariaLabel)"
+    assert tab.evaluate(f"{nameless}.map(e => e.outerHTML)") == []
+    silent = "[...document.querySelectorAll('button, a')].filter(e => !e.textContent.trim() && !e.ariaLabel)"
+    assert tab.evaluate(f"{silent}.map(e => e.outerHTML)") == []
+    described = "[...document.querySelectorAll('[aria-describedby]')].every(e => e.getAttribute('aria-describedby')"
+    assert tab.evaluate(f"{described}.split(' ').every(id => document.getElementById(id)))")
+    tab.close()
