@@ -2,8 +2,8 @@
 
 A synthetic prosthetic side: a mass that is free fore, aft and upwards, a socket of six directions whose upper frame is
 prescribed, a keel of eight joints, the spheres in five zones whose stiffness, damping and friction are symbols; 16
-coordinates are found. Told are operations of the loads, of the equations and of the step, CPU seconds of the translation
-(nothing kept from before), and microseconds of a step, as machine code and by CasADi's own evaluation: medians.
+coordinates are found. Told are operations of the loads, of the equations and of the step, CPU seconds of the
+translation (nothing kept from before), and microseconds of a step, as machine code and by CasADi itself: medians.
 """
 
 from __future__ import annotations
