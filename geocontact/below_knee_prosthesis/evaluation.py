@@ -17,7 +17,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.integrate import cumulative_trapezoid
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY, LegMotion, recorded_tree
@@ -167,9 +166,14 @@ def _impulses(
     """
     both = np.isfinite(own)
     model = np.full_like(own, np.nan)
-    model[both] = cumulative_trapezoid(own[both], time[both], initial=0)
-    measured = np.asarray(cumulative_trapezoid(seen, time, initial=0))
+    model[both] = _summed(time[both], own[both])
+    measured = _summed(time, seen)
     return model, measured - measured[int(np.argmax(both))]
+
+
+def _summed(time: Float[np.ndarray, " s"], value: Float[np.ndarray, " s"]) -> Float[np.ndarray, " s"]:
+    """Integral since the first time by the trapezoidal rule; `scipy.integrate` takes half a second to import."""
+    return np.concatenate([[0.0], np.cumsum(np.diff(time) * (value[1:] + value[:-1]) / 2.0)])
 
 
 def longest_stance(time: Float[np.ndarray, " t"], load: Float[np.ndarray, " t"]) -> tuple[float, float] | None:

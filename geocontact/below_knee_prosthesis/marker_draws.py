@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 from scipy.ndimage import gaussian_filter1d
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.simulate import Stance
@@ -113,7 +113,7 @@ def marker_band(
         step()
     if lost > FEWEST * count:
         raise ArithmeticError(f"{lost} of {count} draws of the markers' errors cannot be simulated")
-    wide = float(norm.ppf(0.5 + 0.5 * level))
+    wide = float(ndtri(0.5 + 0.5 * level))
     half = {name: wide * _rms([one[name] - curve for one in found]) for name, curve in own.items()}
     return MarkerBand(stance.time, own, half, count - lost, lost)
 

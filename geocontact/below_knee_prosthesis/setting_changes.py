@@ -18,7 +18,7 @@ from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from geocontact.below_knee_prosthesis.evaluation import ANKLE, JudgedStance
 
@@ -161,7 +161,7 @@ def _change(
     sd, freedom = error
     half = float("nan")
     if freedom >= LEAST_FREEDOM:
-        half = float(student.ppf(0.5 + 0.5 * level, freedom) * sd * np.sqrt(1.0 / counts[0] + 1.0 / counts[1]))
+        half = float(stdtrit(freedom, 0.5 + 0.5 * level) * sd * np.sqrt(1.0 / counts[0] + 1.0 / counts[1]))
     own = _welch([np.array([one.measured for one in side]) for side in sides], level)
     ends = predicted - half, predicted + half
     verdict = _verdict(predicted, measured, half)
@@ -179,7 +179,7 @@ def _welch(sides: Sequence[Float[np.ndarray, " _"]], level: float) -> float:
     if not total > 0.0:
         return 0.0
     freedom = total**2 / sum(part**2 / (len(side) - 1) for part, side in zip(parts, sides, strict=True))
-    return float(student.ppf(0.5 + 0.5 * level, freedom) * np.sqrt(total))
+    return float(stdtrit(freedom, 0.5 + 0.5 * level) * np.sqrt(total))
 
 
 def _verdict(predicted: float, measured: float, half: float) -> Verdict:

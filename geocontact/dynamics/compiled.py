@@ -1,4 +1,4 @@
-"""CasADi functions as machine code, and as functions that read and write arrays in place."""
+"""CasADi functions that read and write arrays in place, and C that the user's compiler makes a library of."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
+
+from geocontact.dynamics.machine_code import cache_folder, machine_code
 
 if TYPE_CHECKING:
     from casadi import Function
@@ -25,17 +29,29 @@ class Buffered:
     ----------
     function
         Of columns and matrices; these are passed and given column by column.
+    compiled
+        Whether to run machine code where there is some, with the same results: see `code`.
     """
 
-    def __init__(self, function: Function) -> None:
-        self._buffer, self._run = function.buffer()
+    def __init__(self, function: Function, *, compiled: bool = False) -> None:
         self.function = function
         self._inputs = [np.zeros(function.nnz_in(k)) for k in range(function.n_in())]
         self._outputs = [np.zeros(function.nnz_out(k)) for k in range(function.n_out())]
+        self.code = machine_code(function) if compiled else None
+        self._run = self._by_casadi() if self.code is None else self._by_processor(self.code.run, self.code.work)
+
+    def _by_casadi(self) -> Callable[[], object]:
+        self._buffer, run = self.function.buffer()
         for k, each in enumerate(self._inputs):
             self._buffer.set_arg(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # its stubs tell another form
         for k, each in enumerate(self._outputs):
             self._buffer.set_res(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # likewise
+        return run  # type: ignore[no-any-return]
+
+    def _by_processor(self, run: Callable[..., object], work: int) -> Callable[[], object]:
+        lists = (np.array([each.ctypes.data for each in of], np.uintp) for of in (self._inputs, self._outputs))
+        self._memory = [*lists, np.empty(work)]
+        return partial(run, *(each.ctypes.data for each in self._memory))
 
     def __call__(self, *values: Float[np.ndarray, ...]) -> list[Float[np.ndarray, " k"]]:
         """Outputs, each in one row. ValueError for more or fewer numbers than an input has: one is not for all."""
@@ -46,18 +62,16 @@ class Buffered:
         self._run()
         return self._outputs
 
+    def many(self, *values: Float[np.ndarray, "m _"]) -> list[Float[np.ndarray, "m k"]]:
+        """Outputs of many calls, each of which takes one row of every input."""
+        found = [np.empty((len(values[0]), each.size)) for each in self._outputs]
+        for k, rows in enumerate(zip(*values, strict=True)):
+            for all_of_it, each in zip(found, self(*rows), strict=True):
+                all_of_it[k] = each
+        return found
 
-LONG = 2_000_000
-"""Characters of source from which on it is compiled without optimisation."""
 
-
-def flags(source: str) -> tuple[str, ...]:
-    """For the compiler. Long functions without branches: more optimisation costs minutes and gains little.
-
-    A step of a prosthetic stance, 3.2 million characters, takes gcc 12 6 CPU s at -O0 and 201 at -O1; a simulation of
-    1822 steps then takes 0.40 and 0.15 CPU s, 1.6 without a compiler: 780 of them make up for -O1.
-    """
-    return ("-O0" if len(source) > LONG else "-O1", "-fPIC", "-shared")
+FLAGS = ("-O1", "-fPIC", "-shared")
 
 
 def compiler() -> str | None:
@@ -69,33 +83,16 @@ def compiler() -> str | None:
     )
 
 
-def compiled(function: Function) -> Function:
-    """The same function compiled, or itself where there is no compiler or it fails.
+def library_of(source: str) -> Path | None:
+    """The library of some C; None where there is no compiler or it fails.
 
-    The library is kept in `cache_folder` and found again by the source, the compiler and its flags.
+    It is kept in `cache_folder` and found again by the source, the compiler and its flags.
     """
-    return loaded(function, library_of(function))
-
-
-def library_of(function: Function, beside: str = "") -> Path | None:
-    """The function's library; None where there is no compiler or it fails.
-
-    Parameters
-    ----------
-    beside
-        C source that follows the function's own and may call it by its name.
-    """
-    from casadi import CodeGenerator
-
     program = compiler()
     if program is None:
         return None
-    generator = CodeGenerator("f.c")
-    generator.add(function)
-    source = generator.dump() + beside
-    key = "\0".join((source, program, *flags(source)))
     folder = cache_folder()
-    library = folder / f"{hashlib.sha256(key.encode()).hexdigest()}.so"
+    library = folder / f"{hashlib.sha256(chr(0).join((source, program, *FLAGS)).encode()).hexdigest()}.so"
     if not library.is_file():
         try:
             _build(program, source, folder, library)
@@ -104,34 +101,11 @@ def library_of(function: Function, beside: str = "") -> Path | None:
     return library
 
 
-def loaded(function: Function, library: Path | None) -> Function:
-    """The function out of its library; itself where there is none or it is damaged: it is built anew next time."""
-    from casadi import external
-
-    if library is None:
-        return function
-    try:
-        return external(function.name(), str(library))
-    except RuntimeError:
-        library.unlink(missing_ok=True)
-        return function
-
-
-def cache_folder() -> Path:
-    """$GEOCONTACT_CACHE, else the user's folder for such files."""
-    named = os.environ.get("GEOCONTACT_CACHE")
-    if named:
-        return Path(named)
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "geocontact"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "geocontact"
-
-
 def _build(program: str, source: str, folder: Path, library: Path) -> None:
     """Compile beside the place and move there: another process may do the same at the same time."""
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder) as place:
         code, made = Path(place) / "f.c", Path(place) / "f.so"
         code.write_text(source, encoding="utf-8")
-        subprocess.run([program, *flags(source), "-o", str(made), str(code), "-lm"], check=True, capture_output=True)
+        subprocess.run([program, *FLAGS, "-o", str(made), str(code), "-lm"], check=True, capture_output=True)
         made.replace(library)

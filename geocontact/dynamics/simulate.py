@@ -16,10 +16,10 @@ import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import CubicHermiteSpline
 
-from geocontact.dynamics.compiled import Buffered, compiled, library_of, loaded
+from geocontact.dynamics.compiled import Buffered
 from geocontact.dynamics.equations import Equations, solved
 from geocontact.dynamics.recorded_inputs import RecordedInputs
-from geocontact.dynamics.step_loop import SOURCE, TOO_SHORT, StepControl, StepLoop
+from geocontact.dynamics.step_loop import TOO_SHORT, StepControl, StepLoop, step_loop
 from geocontact.dynamics.symbols import entries
 
 if TYPE_CHECKING:
@@ -220,7 +220,7 @@ class Stepper:
     equations
         Whose motion is sought.
     machine_code
-        Whether to compile the step where there is a compiler.
+        Whether the step is machine code, and the loop over the steps too where there is a compiler.
     by_parameter
         Whether to follow the derivatives of the motion by the parameters: those of the steps as they are taken, their
         lengths held.
@@ -229,16 +229,18 @@ class Stepper:
     def __init__(self, equations: Equations, *, machine_code: bool = True, by_parameter: bool = False) -> None:
         self.equations = equations
         step = rosenbrock_step(equations)
-        library = library_of(step, SOURCE) if machine_code else None
-        made = loaded(step, library)
-        self.compiled = made is not step
-        self.step = Buffered(made)
+        self.step = Buffered(step, compiled=machine_code)
         count = len(equations.names)
-        self.loop = StepLoop(library, 2 * count + equations.z.numel(), count) if library and self.compiled else None
+        self.loop = step_loop(self.step.code, 2 * count + equations.z.numel(), count) if self.step.code else None
         self.tangent = None
         if by_parameter:
             tangent = tangent_step(step)
-            self.tangent = Buffered(compiled(tangent) if machine_code else tangent)
+            self.tangent = Buffered(tangent, compiled=machine_code)
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the step is machine code."""
+        return self.step.code is not None
 
     def simulate(
         self,

@@ -1,6 +1,7 @@
-"""The loop over steps in C, beside a step that CasADi generated: inputs by polynomials, the wanted times by cubics.
+"""The loop over steps in C, around a step that is machine code: inputs by polynomials, the wanted times by cubics.
 
-What `simulate.Stepper` does in Python, statement by statement; there the loop costs as much as the steps.
+What `simulate.Stepper` does in Python, statement by statement, its splines in the form of SciPy's: with and without a
+compiler results are equal to the last bit. In Python the loop costs as much as the steps.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from geocontact.dynamics.compiled import library_of
+from geocontact.dynamics.machine_code import MachineCode
 from geocontact.dynamics.recorded_inputs import RecordedInputs
 
 Vector = Float[np.ndarray, " _"]
@@ -23,6 +26,8 @@ SOURCE = r"""
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+typedef void step_function(const double **, double **, double *);
 
 typedef struct {
   const double *breaks, *coefficients;
@@ -56,35 +61,29 @@ static double size_of(long nx, const double *off, const double *x, const double 
 }
 
 static long between(long nx, double t0, double t1, const double *x0, const double *x1, const double *r0,
-                    const double *r1, const double *time, long wanted, long done, double *out) {
+                    const double *r1, const double *time, long wanted, long done, int last, double *out) {
   double h = t1 - t0;
-  for (; done < wanted && time[done] <= t1; done++) {
-    double s = (time[done] - t0) / h, u = 1.0 - s;
-    for (long i = 0; i < nx; i++)
-      out[done * nx + i] = u * u * (1.0 + 2.0 * s) * x0[i] + s * s * (3.0 - 2.0 * s) * x1[i]
-                           + h * s * u * (u * r0[i] - s * r1[i]);
+  for (; done < wanted && (last || time[done] < t1); done++) {
+    double s = time[done] - t0, ss = s * s, sss = ss * s;
+    for (long i = 0; i < nx; i++) {
+      double slope = (x1[i] - x0[i]) / h, bend = (r0[i] + r1[i] - 2.0 * slope) / h;
+      out[done * nx + i] = x0[i] + r0[i] * s + ((slope - r0[i]) / h - bend) * ss + bend / h * sss;
+    }
   }
   return done;
 }
 
-int simulate(const double *breaks, const double *coefficients, const long *sizes, const double *numbers,
-             const double *start, const double *p, const double *time, double *out, double *error, long *counts,
-             double *reached, double *ends) {
+int simulate(step_function *step, const double *breaks, const double *coefficients, const long *sizes,
+             const double *numbers, const double *start, const double *p, const double *time, double *out,
+             double *error, long *counts, double *reached, double *ends) {
   long pieces = sizes[0], inputs = sizes[1], powers = sizes[2], nx = sizes[3], n = sizes[4], wanted = sizes[5];
-  long steps = sizes[6], room = sizes[7], taken = 0, refused = 0, done = 0, known = 0;
+  long steps = sizes[6], room = sizes[7], nw = sizes[8], taken = 0, refused = 0, done = 0, known = 0;
   double tolerance = numbers[0], longest = numbers[2], safe = numbers[3], shrink = numbers[4], grow = numbers[5];
   double smallest = numbers[6], order = numbers[7];
   course c = {breaks, coefficients, pieces, inputs, powers, 0};
-  casadi_int na, nr, ni, nw;
-  step_work(&na, &nr, &ni, &nw);
-  double *memory = malloc((nw + 7 * nx + 4 * inputs + 1) * sizeof(double));
-  const double **arg = malloc((na + 6) * sizeof(double *));
-  double **res = malloc((nr + 3) * sizeof(double *));
-  casadi_int *iw = malloc((ni + 1) * sizeof(casadi_int));
-  if (!memory || !arg || !res || !iw) {
-    free(memory); free(arg); free(res); free(iw);
-    return 2;
-  }
+  double *memory = malloc((nw + 7 * nx + 4 * inputs + 1) * sizeof(double)), *res[3];
+  const double *arg[6];
+  if (!memory) return 2;
   double *x = memory + nw, *found = x + nx, *off = found + nx, *rate = off + nx, *x0 = rate + nx, *r0 = x0 + nx;
   double *spare = r0 + nx, *given = spare + nx, *slope = given + inputs, *later = slope + inputs;
   double *later_slope = later + inputs, t0 = time[0], now = time[0], end = time[wanted - 1], span = end - now;
@@ -99,8 +98,8 @@ int simulate(const double *breaks, const double *coefficients, const long *sizes
     if (inputs) look_up(&c, there, later, later_slope);
     arg[0] = x; arg[1] = &h; arg[2] = given; arg[3] = later; arg[4] = slope; arg[5] = p;
     res[0] = found; res[1] = off; res[2] = rate;
-    step(arg, res, iw, memory, 0);
-    if (known) done = between(nx, t0, now, x0, x, r0, rate, time, wanted, done, out), known = 0;
+    step(arg, res, memory);
+    if (known) done = between(nx, t0, now, x0, x, r0, rate, time, wanted, done, 0, out), known = 0;
     double size = size_of(nx, off, x, found, tolerance);
     if (steps && isfinite(size)) size = 0.0;
     if (size <= 1.0) {
@@ -125,11 +124,11 @@ int simulate(const double *breaks, const double *coefficients, const long *sizes
   if (!state) {
     arg[0] = x; arg[1] = &h; arg[2] = given; arg[3] = given; arg[4] = slope; arg[5] = p;
     res[0] = found; res[1] = off; res[2] = rate;
-    step(arg, res, iw, memory, 0);
-    between(nx, t0, now, x0, x, r0, rate, time, wanted, done, out);
+    step(arg, res, memory);
+    between(nx, t0, now, x0, x, r0, rate, time, wanted, done, 1, out);
   }
   counts[0] = taken; counts[1] = refused; *reached = now;
-  free(memory); free(arg); free(res); free(iw);
+  free(memory);
   return state;
 }
 """
@@ -162,21 +161,38 @@ class Looped:
     reached: float
 
 
+def step_loop(code: MachineCode, states: int, coordinates: int) -> StepLoop | None:
+    """The loop of one step; None where there is no compiler, or its library is damaged: it is built anew next time."""
+    library = library_of(SOURCE)
+    if library is None:
+        return None
+    try:
+        return StepLoop(library, code, states, coordinates)
+    except OSError:
+        library.unlink(missing_ok=True)
+        return None
+
+
 class StepLoop:
-    """The loop of one compiled step.
+    """The loop of one step in machine code.
 
     Parameters
     ----------
     library
-        Made of the step's source followed by `SOURCE`.
+        Made of `SOURCE`.
+    code
+        Of the step.
     states, coordinates
         Sizes of the state and of the part of it whose errors are summed.
+
+    OSError for a library that cannot be loaded.
     """
 
-    def __init__(self, library: Path, states: int, coordinates: int) -> None:
+    def __init__(self, library: Path, code: MachineCode, states: int, coordinates: int) -> None:
         self._run = ctypes.CDLL(str(library)).simulate
         self._run.restype = ctypes.c_int
-        self._run.argtypes = [ctypes.c_void_p] * 12
+        self._run.argtypes = [ctypes.c_void_p] * 13
+        self.code = code
         self.states, self.coordinates, self.room = states, coordinates, ROOM
 
     def run(
@@ -190,7 +206,8 @@ class StepLoop:
         """Motion from a state at `time[0]` to `time[-1]`."""
         given = inputs or RecordedInputs(np.zeros(1), np.zeros((0, 0, 1)))
         pieces, count, powers = given.coefficients.shape
-        sizes = [pieces, count, powers, self.states, self.coordinates, len(time), control.steps or 0, self.room]
+        sizes = [pieces, count, powers, self.states, self.coordinates, len(time), control.steps or 0]
+        sizes += [self.room, self.code.work]
         c = control
         numbers = [c.tolerance, c.first, c.longest, c.safe, c.shrink, c.grow, c.smallest, float(c.order)]
         out, error = np.empty((len(time), self.states)), np.empty(self.coordinates)
@@ -209,7 +226,7 @@ class StepLoop:
             reached,
             ends,
         ]
-        end = self._run(*(each.ctypes.data for each in arrays))
+        end = self._run(self.code.address, *(each.ctypes.data for each in arrays))
         if end == NO_MEMORY:
             raise MemoryError("no memory for a step")
         taken = int(counts[0])

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.dynamics.compiled import compiled
+from geocontact.dynamics.compiled import Buffered
 from geocontact.dynamics.equations import Equations, solved
 from geocontact.dynamics.symbols import entries
 
@@ -40,13 +40,13 @@ class Variation:
     Parameters
     ----------
     machine_code
-        Whether to compile J and f_p where there is a compiler.
+        Whether J and f_p are machine code.
     """
 
     def __init__(self, equations: Equations, places: Sequence[int], *, machine_code: bool = True) -> None:
         self.equations, self.places = equations, tuple(places)
         made = _slopes(equations, self.places)
-        self.slopes = compiled(made) if machine_code else made
+        self.slopes = Buffered(made, compiled=machine_code)
 
     def along(
         self,
@@ -81,19 +81,19 @@ class Variation:
     ) -> tuple[Float[np.ndarray, "m x x"], Float[np.ndarray, "m x k"]]:
         """J and f_p."""
         n, m = len(self.equations.names), len(x)
-        given = (x[:, :n].T, x[:, n : 2 * n].T, x[:, 2 * n :].T, w.T, np.repeat(p[:, None], m, axis=1))
-        mass, pulled, grown = (np.array(each.full()) for each in self.slopes.map(m)(*given))
+        given = (x[:, :n], x[:, n : 2 * n], x[:, 2 * n :], w, np.broadcast_to(p, (m, len(p))))
+        mass, pulled, grown = self.slopes.many(*given)
         size, wide = x.shape[1], x.shape[1] + len(self.places)
         both = np.zeros((m, size, wide))
         both[:, np.arange(n), n + np.arange(n)] = 1.0
-        rows = np.linalg.solve(_pieces(mass, m, n), _pieces(pulled, m, wide))
+        rows = np.linalg.solve(_matrices(mass, n), _matrices(pulled, wide))
         both[:, n : 2 * n] = rows
-        both[:, 2 * n :] = _pieces(grown, m, wide)
+        both[:, 2 * n :] = _matrices(grown, wide)
         return both[:, :, :size], both[:, :, size:]
 
 
-def _pieces(side_by_side: Float[np.ndarray, "n mw"], count: int, wide: int) -> Float[np.ndarray, "m n w"]:
-    return side_by_side.reshape(len(side_by_side), count, wide).swapaxes(0, 1)
+def _matrices(by_column: Float[np.ndarray, "m nk"], wide: int) -> Float[np.ndarray, "m n k"]:
+    return by_column.reshape(len(by_column), wide, by_column.shape[1] // max(wide, 1)).swapaxes(1, 2)
 
 
 def _carried(

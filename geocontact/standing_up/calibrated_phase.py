@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.dynamics.collocation.solve import CollocationResult, Progress, SolverOptions, refined, solve
 from geocontact.standing_up.contact_numbers import (
@@ -124,7 +124,7 @@ def beside_rivals(
     The interval then has both, each as wide as it was, but no value of the other that is out of bounds; the standard
     deviation is that of an interval so wide.
     """
-    reach = float(norm.ppf(0.5 + 0.5 * level))
+    reach = float(ndtri(0.5 + 0.5 * level))
     told = []
     for k, (of, number) in enumerate(zip(phase.parameters, numbers.numbers, strict=True)):
         off = [float(other[k] - p[k]) for other in others]

@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.dynamics.collocation.optimality import inverse_reduced_hessian
 from geocontact.dynamics.collocation.solve import CollocationResult
@@ -187,7 +187,7 @@ def contact_numbers(
     sought, on_bound = low < high, on_their_bounds(phase, found.p)
     covariance = 2.0 / RATE * inverse_reduced_hessian(phase.control, found, on_bound.tolist())
     sd = np.sqrt(np.diag(covariance))
-    reach = float(norm.ppf(0.5 + 0.5 * level))
+    reach = float(ndtri(0.5 + 0.5 * level))
     best = corrected(phase, found, again)
     if again is not None:
         sd = sd * again.widening

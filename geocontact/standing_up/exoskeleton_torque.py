@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.data.multibody.model import GROUND, Multibody
 from geocontact.identify.signals.filters import zero_lag
@@ -132,7 +132,7 @@ class ExoskeletonDynamics:
 
     def intervals(self, level: float) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, " p"]]:
         """Ends of the intervals of a probability, in SI; NaN of parameters that are not identified by themselves."""
-        off = np.where(self.alone, float(norm.ppf(0.5 + 0.5 * level)) * self.deviations, np.nan)
+        off = np.where(self.alone, float(ndtri(0.5 + 0.5 * level)) * self.deviations, np.nan)
         return self.values - off, self.values + off
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.standing_up.worn_device import SHIFT
 
@@ -69,7 +69,7 @@ def deviations(
     level
         Probability of the intervals.
     """
-    reach, sd = 2.0 * float(norm.ppf(0.5 + 0.5 * level)), np.zeros(len(parameters))
+    reach, sd = 2.0 * float(ndtri(0.5 + 0.5 * level)), np.zeros(len(parameters))
     for k, each in enumerate(parameters):
         if each.name in intervals:
             low, high = (each.searched(end) for end in intervals[each.name])

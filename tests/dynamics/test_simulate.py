@@ -17,6 +17,7 @@ from geocontact.dynamics import compiled as code
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
+from geocontact.dynamics.step_loop import SOURCE
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SphereSet
@@ -266,30 +267,35 @@ def test_derivatives_by_parameters() -> None:
     )
 
 
-def test_both_ways_of_evaluation_agree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Machine code and CasADi's own; without a compiler the second is taken, and a library is used again."""
+def test_all_ways_of_evaluation_agree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """CasADi's own, machine code in Python's loop and in C's; both kinds of code are kept and used again."""
     monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path))
     equations = equations_of_motion(tree_of(pendulum((0.7, 0.4), (1.3, 2.1))))
     start, time = (np.array([1.0, 0.2]), np.zeros(2), NONE), np.linspace(0.0, 1.0, 5)
-    slow = Stepper(equations, machine_code=False)
-    assert not slow.compiled
+    steppers = [Stepper(equations, machine_code=False)]
+    assert not steppers[0].compiled and steppers[0].loop is None
     if code.compiler() is not None:
-        fast = Stepper(equations)
-        assert fast.compiled
-        (library,) = tmp_path.glob("*.so")
-        made = library.stat().st_mtime_ns
-        assert Stepper(equations).compiled and library.stat().st_mtime_ns == made
-        assert code.flags("x") == ("-O1", "-fPIC", "-shared") and code.flags("x" * code.LONG + "x")[0] == "-O0"
-        monkeypatch.setattr(code, "LONG", 0)
-        unoptimised = Stepper(equations)
-        assert unoptimised.compiled and len(list(tmp_path.glob("*.so"))) == 2  # flags are part of what it is found by
-        runs = [each.simulate(start, time, steps=300) for each in (slow, fast, unoptimised)]
-        for each in runs[1:]:
-            np.testing.assert_allclose(each.q, runs[0].q, rtol=1e-12)
-    monkeypatch.setattr(code, "compiler", lambda: None)
-    assert not Stepper(equations).compiled
-    monkeypatch.setattr(code, "compiler", lambda: "/nowhere/cc")
-    assert not Stepper(equations_of_motion(tree_of(pendulum((0.5,), (1.0,))))).compiled
+        steppers.append(Stepper(equations))
+        assert steppers[-1].compiled and steppers[-1].loop is not None
+        made = {each: each.stat().st_mtime_ns for each in tmp_path.iterdir()}
+        assert sorted(each.suffix for each in made) == [".o", ".so"]
+        assert Stepper(equations).loop is not None
+        assert {each: each.stat().st_mtime_ns for each in tmp_path.iterdir()} == made
+        monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path / "other"))
+        library = code.library_of(SOURCE)
+        assert library is not None
+        library.write_bytes(b"damaged")
+        assert Stepper(equations).loop is None and not library.exists()
+    for without in (lambda: None, lambda: "/nowhere/cc"):
+        monkeypatch.setattr(code, "compiler", without)
+        steppers.append(Stepper(equations))
+        assert steppers[-1].compiled and steppers[-1].loop is None
+    runs = [each.simulate(start, time, tolerance=1e-8) for each in steppers]
+    for each in runs[1:]:
+        for name in ("q", "u", "ends", "error"):
+            np.testing.assert_array_equal(
+                getattr(each, name), getattr(runs[0], name), "the same operations in the same order"
+            )
 
 
 def test_what_cannot_go_on_says_so() -> None:

@@ -16,7 +16,7 @@ from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.below_knee_prosthesis.calibration.recorded_stance import RecordedStance
 from geocontact.below_knee_prosthesis.calibration.sole_residuals import PAUSE
@@ -149,7 +149,7 @@ def knowledge(residuals: StanceResiduals, z: Float[np.ndarray, " p"], level: flo
         if verdict == "known":
             reach = np.exp(half[k])
             ends = max(each.lower, values[k] / reach), min(each.upper, values[k] * reach)
-        wide = np.exp(norm.ppf(0.5 + 0.5 * level) * zones.sd[k])
+        wide = np.exp(ndtri(0.5 + 0.5 * level) * zones.sd[k])
         prior = max(each.lower, usual[k] / wide), min(each.upper, usual[k] * wide)
         found = float(values[k]), float(ends[0]), float(ends[1])
         rows.append(KnownNumber(each.name, each.unit, *found, verdict, (float(prior[0]), float(prior[1]))))
@@ -167,7 +167,7 @@ def _beside(place: int, z: float, sd: float, half: float, size: float, level: fl
     """Height or pitch of the foot beside its standing trial, from what was sought in standard deviations."""
     name, unit = (("foot.height", "m"), ("foot.pitch", "rad"))[place % 2]
     name += f".{place // 2 + 1}" if place > 1 else ""
-    known, wide = sd <= HALF, size * float(norm.ppf(0.5 + 0.5 * level))
+    known, wide = sd <= HALF, size * float(ndtri(0.5 + 0.5 * level))
     ends = (size * (z - half), size * (z + half)) if known else (np.nan, np.nan)
     verdict: Verdict = "known" if known else "not identified" if np.isfinite(sd) else "unknown"
     return KnownNumber(name, unit, float(size * z), float(ends[0]), float(ends[1]), verdict, (-wide, wide))

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole
 from geocontact.data.parameter import Parameter
@@ -107,7 +107,7 @@ class ZoneParameters:
         An interval that is wider than the prior's makes no number less known. ValueError, with the name, for one that
         is none.
         """
-        found, wide = self.sd, 2.0 * norm.ppf(0.5 + 0.5 * level)
+        found, wide = self.sd, 2.0 * ndtri(0.5 + 0.5 * level)
         for k, name in enumerate(self.names):
             if name in intervals:
                 lower, upper = intervals[name]

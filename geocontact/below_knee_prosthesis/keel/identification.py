@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 from scipy.optimize import least_squares
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from geocontact.below_knee_prosthesis.keel.compression import Compressed, calibrated_on_sole, pressed_sole
 from geocontact.below_knee_prosthesis.keel.foam import foam_numbers
@@ -74,7 +74,7 @@ class MeasuredCompression:
         line = np.linalg.lstsq(design, self.deflection, rcond=None)[0]
         off = design @ line - self.deflection
         half = half_widths([off / self.sd], [design / self.sd], level)[0]
-        sd = half / norm.ppf(0.5 + 0.5 * level)
+        sd = half / ndtri(0.5 + 0.5 * level)
         return float(1.0 / line[0]), float(sd / line[0] ** 2)
 
 
@@ -269,7 +269,7 @@ def identified_keel(
     bending, stiff, fulcrums, offsets = beam.parts(p)
     sd = [0.0] * len(measured)
     for place, k in enumerate(beam.sought, beam.first):
-        sd[k] = float(half[place] / norm.ppf(0.5 + 0.5 * level))
+        sd[k] = float(half[place] / ndtri(0.5 + 0.5 * level))
     numbers = [_by_logarithm("EI, plate on the keel", "N m^2", bending, half[0])]
     if series is None:
         numbers.append(_series(stiff, float(half[1])))
@@ -316,7 +316,7 @@ def half_widths(
     Parts do not remember each other. Where no part has several rows, or nothing is over, the stated deviations count.
     """
     off, slope = np.concatenate(rows), np.concatenate(slopes)
-    stated = np.sqrt(np.diag(spread(slope))) * float(norm.ppf(0.5 + 0.5 * level))
+    stated = np.sqrt(np.diag(spread(slope))) * float(ndtri(0.5 + 0.5 * level))
     if max(map(len, rows)) < FEWEST or len(off) - slope.shape[1] < FEWEST:
         return np.asarray(stated)
     time, start = [], 0.0
@@ -400,7 +400,7 @@ def identified_sole(
     variance = sd**2 + (by_place * np.array(beam.fulcrum_sd)) ** 2
     bread = spread(slope)
     covariance = bread @ (slope.T * variance) @ slope @ bread
-    half = np.sqrt(np.diag(covariance)) * float(norm.ppf(0.5 + 0.5 * level))
+    half = np.sqrt(np.diag(covariance)) * float(ndtri(0.5 + 0.5 * level))
     numbers = (
         _by_logarithm("EI, plate on the sole", "N m^2", float(keel.bending), float(half[0])),
         _by_logarithm(*_pressed(foot.sole, law, zone), float(half[1])),

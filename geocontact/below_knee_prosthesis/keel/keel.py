@@ -33,7 +33,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.integrate import solve_bvp
 
 from geocontact.below_knee_prosthesis.keel.sections import ONE, Sections, Support
 
@@ -285,6 +284,8 @@ def elastica(keel: Keel, fulcrum: float, force: float) -> BentKeel:
 
     ValueError for several sections.
     """
+    from scipy.integrate import solve_bvp  # half a second to import
+
     if not keel.sections.uniform:
         raise ValueError("the elastica is of a keel of one section")
     overhang = keel.length - fulcrum

@@ -79,7 +79,7 @@ class ProsthesisCalibrateOptions(Options):
     level
         Probability of the intervals.
     machine_code
-        Compile the equations of `full` first: the first run takes a minute longer, later runs are faster.
+        Machine code of the equations, kept for later runs. Without it, CasADi interprets them: the same, but slower.
 
     What was recorded with which error
     ----------------------------------
@@ -130,7 +130,7 @@ class ProsthesisCalibrateOptions(Options):
     starts: int = 8
     seed: int = 0
     level: Annotated[Fraction, Spelled(default="0.95")] = 0.95
-    machine_code: bool = False
+    machine_code: bool = True
     force_noise: Annotated[float, NOISE] = 3.0
     height_error: Annotated[Length, SHIFT, Spelled(default="0.5mm")] = 0.5e-3
     pitch_error: Annotated[Degrees, TILT, Spelled(default=0.5)] = PITCH
@@ -156,7 +156,7 @@ class ProsthesisCalibrateOptions(Options):
         if self.full and self.other_plate is None:
             what = "the force under the other foot is not known: the pelvis, free to fall, would"
             raise InputError("", "`other_plate`", what, "name the plate under the other foot, or leave `full` out")
-        if not self.full and (self.other_plate is not None or self.machine_code):
+        if not self.full and (self.other_plate is not None or not self.machine_code):
             name = "`machine_code`" if self.other_plate is None else "`other_plate`"
             raise InputError("", name, "it is of no use along recorded poses", "give `full` as well")
         if self.full and self.plate == self.other_plate:

@@ -66,7 +66,7 @@ class ProsthesisCompareOptions(Options):
         What is compared with the plate: its stance, or as the study of the variable-stiffness foot does, also 0.25 s
         of swing on both sides, with centres of pressure low-passed at 6 Hz, which makes errors smaller.
     machine_code
-        Compile the equations first: the first run takes ten seconds longer, later runs are faster.
+        Machine code of the equations, kept for later runs. Without it, CasADi interprets them: the same, but slower.
     workers
         Processes; as many as there are cores by default. Results do not depend on it.
     """
@@ -93,7 +93,7 @@ class ProsthesisCompareOptions(Options):
     socket: Literal["as_meant", "as_printed"] = "as_meant"
     socket_numbers: Path | None = None
     score: Literal["stance", "study"] = "stance"
-    machine_code: bool = False
+    machine_code: bool = True
     workers: int | None = None
 
     @property

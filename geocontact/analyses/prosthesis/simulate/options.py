@@ -117,7 +117,7 @@ class ProsthesisSimulateOptions(Options):
     gap_limit
         Longest time for which a coordinate may be unknown [s].
     machine_code
-        Compile the equations first: the first run takes ten seconds longer, later runs are faster.
+        Machine code of the equations, kept for later runs. Without it, CasADi interprets them: the same, but slower.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes
@@ -181,7 +181,7 @@ class ProsthesisSimulateOptions(Options):
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     socket_turns: int = TURNS
-    machine_code: bool = False
+    machine_code: bool = True
     markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None

@@ -90,7 +90,7 @@ class ProsthesisWalkOptions(Options):
         rotation; by its name, of a shoulder YXY), another sequence of the turned axes of the joint's frames such as
         XYZ, or quaternion.
     machine_code
-        Compile the equations first: the first run takes half a minute longer, later runs are faster.
+        Machine code of the equations, kept for later runs. Without it, CasADi interprets them: the same, but slower.
     markers_map
         Names of recorded markers as they are called here: R_HIP=RASI, or a file with a pair in each line.
     axes
@@ -133,7 +133,7 @@ class ProsthesisWalkOptions(Options):
     cutoff: Annotated[float, CUTOFF] = 6.0
     gap_limit: Annotated[float, GAP] = 0.2
     joint_angles: JointAngleForm = "ISB"
-    machine_code: bool = False
+    machine_code: bool = True
     markers_map: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
