@@ -69,9 +69,8 @@ def main() -> None:
                     used.append(cpu(server.pid) - before)
                     all_used.append(of_browser() - every)
                 fields = tab.locator(".field").count()
-                print(
-                    f"{form}: {fields} fields {median(seconds):.2f} s; CPU of server {median(used):.2f}, of both {median(all_used):.2f} s"
-                )
+                spent = f"CPU of the server {median(used):.2f} s, of both {median(all_used):.2f} s"
+                print(f"{form}: {fields} fields {median(seconds):.2f} s; {spent}")
             chromium.close()
             server.terminate()
 

@@ -138,6 +138,7 @@ class FormView:
                 text("summary", section or "Inputs and options")
                 self.rows += [FieldRow(one, form, upload, changed) for one in inside]
             self._groups |= dict.fromkeys((one.name for one in inside), group)
+        self.refresh("")
 
     def refresh(self, wrong: str, only_touched: bool = True) -> str:
         """Show a mistake at the field that it names; what is said of none, or of one that nobody filled in yet."""
