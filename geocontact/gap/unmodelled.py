@@ -41,7 +41,19 @@ from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import BLOCKS, block_edges
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import DEVIATIONS, FEW, LEADING, LEFT_OVER, PHASES, SLIGHT, SURE, TURNS, WORTH_NAMING
+from geocontact.gap.inputs.spectrum import runs
+from geocontact.gap.levels import (
+    DEVIATIONS,
+    FEW,
+    FEWEST,
+    LEADING,
+    LEFT_OVER,
+    PHASES,
+    SLIGHT,
+    SURE,
+    TURNS,
+    WORTH_NAMING,
+)
 from geocontact.gap.localise.gap_map import family_wise
 from geocontact.gap.reduction.error_budget import ChannelBudget, deviations
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
@@ -237,9 +249,11 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]
-    steps = [np.diff(trial.time) for trial in trials]
+    parts = [runs(trial.time) for trial in trials]
+    steps = [np.diff(trial.time[run]) for trial, own in zip(trials, parts, strict=True) for run in own]
     if any(float(np.ptp(each)) > SLIGHT * float(np.median(each)) for each in steps):
         return None
+    most = FEWEST if any(len(own) > 1 for own in parts) else FEW * int(LONGEST)  # samples, that a trial may lose
     measured = [
         np.where(there[:, c], y[:, c], np.nan) for y, there in zip(problem.recorded.outputs, rest.present, strict=True)
     ]
@@ -249,7 +263,6 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     slips: list[Slip | None] = []
     for _ in range(TURNS):
         moved = [p + j[:, c] @ shift for p, j in zip(predicted, jacobian, strict=True)]
-        most = FEW * int(LONGEST)  # samples, that a trial may lose
         slips = [slip_of(y, p, max(min(len(y) // BLOCKS, most), 1)) for y, p in zip(measured, moved, strict=True)]
         if not any(slips):
             return None
