@@ -36,12 +36,12 @@ from scipy.stats import chi2, norm, t
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
+from geocontact.data.trial import runs
 from geocontact.effects.measurement.clock_slip import WHEN
 from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import BLOCKS, block_edges
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.inputs.spectrum import runs
 from geocontact.gap.levels import (
     DEVIATIONS,
     FEW,
@@ -250,7 +250,12 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]
     parts = [runs(trial.time) for trial in trials]
-    steps = [np.diff(trial.time[run]) for trial, own in zip(trials, parts, strict=True) for run in own]
+    steps = [
+        np.diff(trial.time[run])
+        for trial, own in zip(trials, parts, strict=True)
+        for run in own
+        if run.stop - run.start > 1
+    ]
     if any(float(np.ptp(each)) > SLIGHT * float(np.median(each)) for each in steps):
         return None
     most = FEWEST if any(len(own) > 1 for own in parts) else FEW * int(LONGEST)  # samples, that a trial may lose

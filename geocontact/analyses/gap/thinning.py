@@ -9,8 +9,8 @@ sample stays: lags, the memory of noise, levels at which a sensor clips and held
 
 Base models of geocontact see the inputs of every stretch from `LEAD` samples before it on, over which lags, friction
 and play settle, to `AHEAD` samples behind it, and those of the trial's beginning. In between are means, of the more
-samples the longer before a stretch, which what forgets more slowly goes by. All keep their times, so that drifts and clocks are those of the whole trial. Of other
-simulators nothing is known, and their inputs stay whole.
+samples the longer before a stretch, which what forgets more slowly goes by. All keep their times, so that drifts and
+clocks are those of the whole trial. Of other simulators nothing is known, and their inputs stay whole.
 
 Stretches begin at a low-discrepancy sequence within equal parts of a trial (multiples of the golden section, Kuipers &
 Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only;

@@ -18,8 +18,7 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs, recorde
 from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
-from geocontact.data.trial import Trial
-from geocontact.gap.inputs.spectrum import runs
+from geocontact.data.trial import Trial, runs
 from geocontact.gap.levels import FEWEST
 
 ANGLE = "rad"
@@ -71,7 +70,7 @@ def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
 
 
 def longest_run(trial: Trial) -> Trial:
-    """What a trial recorded without a pause (`gap.inputs.spectrum.runs`) for longest; the trial where there is none."""
+    """What a trial recorded without a pause (`data.trial`) for longest; the trial where there is none."""
     every = runs(trial.time)
     if len(every) < 2:
         return trial

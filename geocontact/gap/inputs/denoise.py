@@ -19,8 +19,8 @@ from jaxtyping import Bool, Complex, Float, Int
 
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
-from geocontact.data.trial import Trial
-from geocontact.gap.inputs.spectrum import TREND, even_grid, long_runs, runs
+from geocontact.data.trial import Trial, runs
+from geocontact.gap.inputs.spectrum import TREND, even_grid, long_runs
 from geocontact.gap.inputs.spectrum_components import USUAL
 from geocontact.gap.levels import FEWEST, SLIGHT, SURE
 from geocontact.identify.noise.covariance import BLOCK_ROWS
@@ -272,10 +272,11 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
     found = []
     for trial in trials:
         for run in runs(trial.time):
-            column, time, grid = trial.column(name)[run], trial.time[run], even_grid(trial.time[run])
+            column, time = trial.column(name)[run], trial.time[run]
             there = np.isfinite(column)
             if there.sum() < FEWEST:
                 continue
+            grid = even_grid(time)
             own = Stretches.of(np.interp(grid, time[there], column[there]), float(grid[1] - grid[0]), passed)
             found.append((np.fft.rfftfreq(own.width, grid[1] - grid[0]), 1.0 - own.shares(sd) * own.beside_cubics))
     if not found:

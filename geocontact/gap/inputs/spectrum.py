@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.trial import Trial
+from geocontact.data.trial import Trial, runs
 from geocontact.gap.levels import FEWEST, FLAT, SLIGHT
 
 
@@ -19,21 +18,10 @@ def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
     return np.linspace(time[0], time[-1], steps + 1)
 
 
-def runs(time: Float[np.ndarray, " t"]) -> list[slice]:
-    """Rows of a trial between pauses of more than half of `FEWEST` usual steps; runs of fewer rows than that are none.
-
-    A straight line over such a pause would be no movement. A trial of fewer rows is one run.
-    """
-    step = np.diff(time)
-    ends = np.flatnonzero(step > 0.5 * FEWEST * np.median(step)) + 1 if len(step) else np.zeros(0, int)
-    found = [slice(int(a), int(b)) for a, b in pairwise([0, *ends, len(time)]) if b - a >= FEWEST]
-    return found if len(ends) else [slice(0, len(time))]
-
-
 def long_runs(time: Float[np.ndarray, " t"]) -> list[slice]:
-    """Runs of a trial that are no shorter than half the longest: shorter ones blur a spectrum."""
+    """Runs of a trial (`data.trial`) that are no shorter than half the longest: shorter ones blur a spectrum."""
     found = runs(time)
-    longest = max((one.stop - one.start for one in found), default=0)
+    longest = max(one.stop - one.start for one in found)
     return [one for one in found if 2 * (one.stop - one.start) >= longest]
 
 
