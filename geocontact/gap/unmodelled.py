@@ -249,20 +249,20 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]
-    parts = [runs(trial.time) for trial in trials]
-    steps = [
-        np.diff(trial.time[run])
-        for trial, own in zip(trials, parts, strict=True)
-        for run in own
-        if run.stop - run.start > 1
-    ]
+    pieces = [[run for run in runs(trial.time) if run.stop - run.start >= FEWEST] for trial in trials]
+    steps = [np.diff(trial.time[run]) for trial, own in zip(trials, pieces, strict=True) for run in own]
     if any(float(np.ptp(each)) > SLIGHT * float(np.median(each)) for each in steps):
         return None
-    most = FEWEST if any(len(own) > 1 for own in parts) else FEW * int(LONGEST)  # samples, that a trial may lose
+    paused = any(len(own) > 1 for own in pieces)
+    most = FEWEST if paused else FEW * int(LONGEST)  # samples, that a trial may lose
     measured = [
         np.where(there[:, c], y[:, c], np.nan) for y, there in zip(problem.recorded.outputs, rest.present, strict=True)
     ]
     predicted = [y - r[:, c] for y, r in zip(measured, rest.residuals, strict=True)]
+    if paused:  # what came before and behind a piece was not measured
+        model = found.answer.chosen.judged.model
+        told = [model.system.simulate(trial, model.values)[:, c] for trial in trials]
+        predicted = [np.where(np.isfinite(p), p, q) for p, q in zip(predicted, told, strict=True)]
     known = [np.where(np.isfinite(p), p, 0.0) for p in predicted]
     shift = np.zeros(jacobian[0].shape[-1])
     slips: list[Slip | None] = []
@@ -285,7 +285,10 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
         return None
     kept = [(trial, one) for trial, one in zip(trials, slips, strict=True) if one is not None]
     told = {trial.name: float(one.samples) for trial, one in kept}
-    places = {trial.name: one.place / (len(trial) - 1) for trial, one in kept}
+    places = {
+        trial.name: float(trial.time[one.place] - trial.time[0]) / float(trial.time[-1] - trial.time[0])
+        for trial, one in kept
+    }
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"
