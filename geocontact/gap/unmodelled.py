@@ -245,6 +245,18 @@ def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"
     return Slip(row, place, after, before, float(still[-1]), nats)
 
 
+def share_of_time(time: Float[np.ndarray, " t"], there: Bool[np.ndarray, " t"], place: int) -> float:
+    """Share of a trial's time at a row; in a trial with pauses, half-way from there to the next measured piece.
+
+    `there` are the measured rows. Between two pieces nothing shows where it was.
+    """
+    again = np.flatnonzero(np.diff(there.astype(int), prepend=1) == 1)
+    after = again[again > place]
+    whole = len(runs(time)) == 1 or not len(after)
+    at = time[place] if whole else 0.5 * (time[place] + time[after[0]])
+    return float(at - time[0]) / float(time[-1] - time[0])
+
+
 def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelled | None:
     """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
@@ -283,17 +295,14 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     slips = [one if one is not None and one.nats > SURE else None for one in slips]
     if not any(slips):
         return None
-    kept = [(trial, one) for trial, one in zip(trials, slips, strict=True) if one is not None]
-    told = {trial.name: float(one.samples) for trial, one in kept}
-    places = {
-        trial.name: float(trial.time[one.place] - trial.time[0]) / float(trial.time[-1] - trial.time[0])
-        for trial, one in kept
-    }
+    kept = [(trial, one, y) for trial, one, y in zip(trials, slips, measured, strict=True) if one is not None]
+    told = {trial.name: float(one.samples) for trial, one, _ in kept}
+    places = {trial.name: share_of_time(trial.time, np.isfinite(y), one.place) for trial, one, y in kept}
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"
-    taken = min(sum(one.unmoved - one.after for _, one in kept), square_of(rest.residuals, rest.present, c))
-    sure = max(float(np.exp(-one.nats)) for _, one in kept)
+    taken = min(sum(one.unmoved - one.after for _, one, _ in kept), square_of(rest.residuals, rest.present, c))
+    sure = max(float(np.exp(-one.nats)) for _, one, _ in kept)
     return Unmodelled(LOST, name, taken, sure, words, None, told)
 
 
