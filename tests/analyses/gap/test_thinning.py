@@ -36,6 +36,7 @@ from geocontact.gap.levels import FEWEST
 from geocontact.io.cases.gap_case_writer import write_gap_case
 from geocontact.systems.catalogue import system_of
 from tests.gap.cases import TRUE, elbow_case
+from tests.systems.examples import measured, shoulder, shoulder_trial
 
 
 def case_of(samples: int, trials: int = 4) -> GapCase:
@@ -163,6 +164,20 @@ def test_pieces_are_simulated_as_in_the_whole_trial(effect: str, values: dict[st
         used = np.isfinite(pieces.column("force"))
         off = found[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
         assert np.sqrt(np.mean(off**2)) < most * expected.std()
+
+
+def test_an_arm_that_swings_is_where_it_is_in_the_whole_trial() -> None:
+    """The shoulder has a motion of its own, which goes on between two pieces along the means of its input."""
+    system = shoulder()
+    whole = measured(system, shoulder_trial("t1", 1.0, 0.5, duration=200.0))
+    case = GapCase("long", "shoulder", (whole,), (), (), {}, {}, {})
+    with patch.object(thinning, "ROWS", 800):
+        (pieces,) = with_inputs_around(thinned(case, system.outputs), system.outputs).calibration
+    assert len(pieces) < 0.15 * len(whole)
+    expected, found = (system.simulate(one, system.start) for one in (whole, pieces))
+    used = np.isfinite(pieces.column("force"))
+    off = found[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
+    assert used.sum() > 300 and (np.sqrt(np.mean(off**2, axis=0)) < 3e-3 * expected.std(axis=0)).all()
 
 
 def test_simulators_of_others_see_all_inputs() -> None:
