@@ -31,8 +31,9 @@ PAUSE = 10.0
 def runs(time: Float[np.ndarray, " t"]) -> list[slice]:
     """Rows between pauses (`PAUSE`), one after the other; all of them where there is none."""
     step = np.diff(time)
-    ends = np.flatnonzero(step > PAUSE * np.median(step)) + 1 if len(step) else []
-    return [slice(int(a), int(b)) for a, b in pairwise([0, *ends, len(time)])]
+    usual = float(np.median(step)) if len(step) else 0.0
+    ends = [int(k) + 1 for k in np.flatnonzero(step > PAUSE * usual)]
+    return [slice(a, b) for a, b in pairwise([0, *ends, len(time)])]
 
 
 @dataclass(frozen=True)
