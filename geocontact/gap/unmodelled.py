@@ -273,8 +273,8 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     predicted = [y - r[:, c] for y, r in zip(measured, rest.residuals, strict=True)]
     if paused:  # what came before and behind a piece was not measured
         model = found.answer.chosen.judged.model
-        told = [model.system.simulate(trial, model.values)[:, c] for trial in trials]
-        predicted = [np.where(np.isfinite(p), p, q) for p, q in zip(predicted, told, strict=True)]
+        beside = [model.system.simulate(trial, model.values)[:, c] for trial in trials]
+        predicted = [np.where(np.isfinite(p), p, q) for p, q in zip(predicted, beside, strict=True)]
     known = [np.where(np.isfinite(p), p, 0.0) for p in predicted]
     shift = np.zeros(jacobian[0].shape[-1])
     slips: list[Slip | None] = []
