@@ -84,11 +84,14 @@ def known_changes(
     law: Law,
     values: Values,
     others: Sequence[Values],
+    *,
+    by_slots: bool,
 ) -> tuple[Loads, list[Loads | None]] | None:
     """Loads along a movement, and how they change towards other values (`chain.system`).
 
     None for others that add a spring in series or slip, and in the place of all where there is one. Deflections of
-    `geometry` have the interface law, one for all or each its own.
+    `geometry` have the interface law, one for all or each its own; `by_slots` where values move them by the numbers of
+    the geometry's slots alone, so that those of others with the same numbers are known.
     """
     numbers, own = law.slots.numbers(values).reshape(-1, SLOTS), geometry.slots.numbers(values)
     gives_way = [place for place, name in enumerate(geometry.slots.neutral) if name.endswith(GIVES_WAY)]
@@ -99,11 +102,12 @@ def known_changes(
     numbers = np.broadcast_to(numbers, (count, SLOTS))
     ways = towards(law.slots, values, others).reshape(len(others), len(law.slots.neutral) // SLOTS, SLOTS)
     dlaw = np.broadcast_to(ways, (len(others), count, SLOTS))
-    yielding = towards(geometry.slots, values, others)[:, gives_way].any(axis=1)
+    moved = towards(geometry.slots, values, others)
+    yielding = moved[:, gives_way].any(axis=1)
     known = ~np.logical_or(yielding, dlaw[..., UNKNOWN].any(axis=(1, 2)))
     du, drate = np.zeros((2, len(others), samples, count))
     for k, other in enumerate(others):
-        if known[k]:
+        if known[k] and (moved[k].any() or not by_slots):
             further = geometry.deflection(movement, other)
             du[k], drate[k] = further[0] - u, further[1] - rate
     loads, slopes = np.empty_like(u), np.zeros((len(others), samples, count))
@@ -271,7 +275,7 @@ class SingleDeflection:
         self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
     ) -> tuple[Loads, list[Loads | None]] | None:
         """Load along a movement, and how it changes towards other values (`chain.system`)."""
-        return known_changes(self, movement, law, values, others)
+        return known_changes(self, movement, law, values, others, by_slots=False)
 
     def _deflection_and_slope(
         self, x: Float[np.ndarray, " t"], values: Values

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -21,6 +22,18 @@ def mean_and_sd(trials: Float[np.ndarray, "trials t"]) -> tuple[Float[np.ndarray
     mean = np.where(there, trials, 0.0).sum(axis=0) / np.where(count > 0, count, np.nan)
     squares = np.where(there, trials - mean, 0.0) ** 2
     return mean, np.sqrt(squares.sum(axis=0) / np.where(count > 1, count - 1.0, np.nan))
+
+
+PAUSE = 10.0
+"""Usual steps from one sample to the next, beyond which a recording paused: a straight line is no movement there."""
+
+
+def runs(time: Float[np.ndarray, " t"]) -> list[slice]:
+    """Rows between pauses (`PAUSE`), one after the other; all of them where there is none."""
+    step = np.diff(time)
+    usual = float(np.median(step)) if len(step) else 0.0
+    ends = [int(k) + 1 for k in np.flatnonzero(step > PAUSE * usual)]
+    return [slice(a, b) for a, b in pairwise([0, *ends, len(time)])]
 
 
 @dataclass(frozen=True)

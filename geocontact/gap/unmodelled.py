@@ -36,12 +36,24 @@ from scipy.stats import chi2, norm, t
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
+from geocontact.data.trial import runs
 from geocontact.effects.measurement.clock_slip import WHEN
 from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.change_amplitude import BLOCKS, block_edges
 from geocontact.gap.case.problem import Problem
-from geocontact.gap.levels import DEVIATIONS, FEW, LEADING, LEFT_OVER, PHASES, SLIGHT, SURE, TURNS, WORTH_NAMING
+from geocontact.gap.levels import (
+    DEVIATIONS,
+    FEW,
+    FEWEST,
+    LEADING,
+    LEFT_OVER,
+    PHASES,
+    SLIGHT,
+    SURE,
+    TURNS,
+    WORTH_NAMING,
+)
 from geocontact.gap.localise.gap_map import family_wise
 from geocontact.gap.reduction.error_budget import ChannelBudget, deviations
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
@@ -233,23 +245,41 @@ def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"
     return Slip(row, place, after, before, float(still[-1]), nats)
 
 
+def share_of_time(time: Float[np.ndarray, " t"], there: Bool[np.ndarray, " t"], place: int) -> float:
+    """Share of a trial's time at a row; in a trial with pauses, half-way from there to the next measured piece.
+
+    `there` are the measured rows. Between two pieces nothing shows where it was.
+    """
+    again = np.flatnonzero(np.diff(there.astype(int), prepend=1) == 1)
+    after = again[again > place]
+    whole = len(runs(time)) == 1 or not len(after)
+    at = time[place] if whole else 0.5 * (time[place] + time[after[0]])
+    return float(at - time[0]) / float(time[-1] - time[0])
+
+
 def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelled | None:
     """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]
-    steps = [np.diff(trial.time) for trial in trials]
+    pieces = [[run for run in runs(trial.time) if run.stop - run.start >= FEWEST] for trial in trials]
+    steps = [np.diff(trial.time[run]) for trial, own in zip(trials, pieces, strict=True) for run in own]
     if any(float(np.ptp(each)) > SLIGHT * float(np.median(each)) for each in steps):
         return None
+    paused = any(len(own) > 1 for own in pieces)
+    most = FEWEST if paused else FEW * int(LONGEST)  # samples, that a trial may lose
     measured = [
         np.where(there[:, c], y[:, c], np.nan) for y, there in zip(problem.recorded.outputs, rest.present, strict=True)
     ]
     predicted = [y - r[:, c] for y, r in zip(measured, rest.residuals, strict=True)]
+    if paused:  # what came before and behind a piece was not measured
+        model = found.answer.chosen.judged.model
+        beside = [model.system.simulate(trial, model.values)[:, c] for trial in trials]
+        predicted = [np.where(np.isfinite(p), p, q) for p, q in zip(predicted, beside, strict=True)]
     known = [np.where(np.isfinite(p), p, 0.0) for p in predicted]
     shift = np.zeros(jacobian[0].shape[-1])
     slips: list[Slip | None] = []
     for _ in range(TURNS):
         moved = [p + j[:, c] @ shift for p, j in zip(predicted, jacobian, strict=True)]
-        most = FEW * int(LONGEST)  # samples, that a trial may lose
         slips = [slip_of(y, p, max(min(len(y) // BLOCKS, most), 1)) for y, p in zip(measured, moved, strict=True)]
         if not any(slips):
             return None
@@ -265,14 +295,14 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
     slips = [one if one is not None and one.nats > SURE else None for one in slips]
     if not any(slips):
         return None
-    kept = [(trial, one) for trial, one in zip(trials, slips, strict=True) if one is not None]
-    told = {trial.name: float(one.samples) for trial, one in kept}
-    places = {trial.name: one.place / (len(trial) - 1) for trial, one in kept}
+    kept = [(trial, one, y) for trial, one, y in zip(trials, slips, measured, strict=True) if one is not None]
+    told = {trial.name: float(one.samples) for trial, one, _ in kept}
+    places = {trial.name: share_of_time(trial.time, np.isfinite(y), one.place) for trial, one, y in kept}
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"
-    taken = min(sum(one.unmoved - one.after for _, one in kept), square_of(rest.residuals, rest.present, c))
-    sure = max(float(np.exp(-one.nats)) for _, one in kept)
+    taken = min(sum(one.unmoved - one.after for _, one, _ in kept), square_of(rest.residuals, rest.present, c))
+    sure = max(float(np.exp(-one.nats)) for _, one, _ in kept)
     return Unmodelled(LOST, name, taken, sure, words, None, told)
 
 

@@ -120,7 +120,7 @@ class ElbowMisalignment:
         self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
     ) -> tuple[Loads, list[Loads | None]] | None:
         """Forces along a movement, and how they change towards other values (`chain.system`)."""
-        return known_changes(self, movement, law, values, others)
+        return known_changes(self, movement, law, values, others, by_slots=True)
 
 
 INPUTS, OUTPUTS = ("beta",), ("force",)

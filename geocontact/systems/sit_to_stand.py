@@ -146,7 +146,7 @@ class InterfaceSites:
         self, movement: DifferentiatedInputs, law: Law, values: Values, others: Sequence[Values]
     ) -> tuple[Loads, list[Loads | None]] | None:
         """Forces along a movement, and how they change towards other values (`chain.system`)."""
-        return known_changes(self, movement, law, values, others)
+        return known_changes(self, movement, law, values, others, by_slots=True)
 
     def _numbers(self, values: Values) -> Float[np.ndarray, "s seven"]:
         return self.slots.numbers(values).reshape(len(self.sites), -1)

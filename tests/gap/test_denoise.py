@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import butter, filtfilt
@@ -9,7 +11,7 @@ from scipy.signal import butter, filtfilt
 from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.inputs.denoise import bins_wide, denoised, highest_noise, left, seen_noise, shaken
-from geocontact.gap.inputs.spectrum import switches
+from geocontact.gap.inputs.spectrum import spectrum, switches
 from geocontact.identify.signals.low_pass import LowPass
 
 STEP = 0.02
@@ -76,6 +78,35 @@ def test_most_of_the_noise_goes_and_the_movement_stays(lost: bool) -> None:
     better = denoised(recorded, {"u": 0.004}, {"u": LowPass(6.0, STEP)}).column("u")
     inside = slice(20, -20)
     assert np.std((better - clean)[inside]) < 0.6 * np.std((recorded.column("u") - clean)[inside])
+
+
+def test_both_sides_of_a_pause_are_taken_for_themselves() -> None:
+    """As two trials are: a straight line over a pause is no movement."""
+    whole, _ = trial(0.01, 0.5, 1)
+    rows = [slice(0, 450), slice(450, 1000)]
+    time = whole.time + np.where(np.arange(1000) < 450, 0.0, 30.0)
+    paused = part(whole, time, slice(None))
+    passed, sides = LowPass(6.0, STEP), [part(whole, time, own) for own in rows]
+    calm = [denoised(one, {"u": 0.01}, {"u": passed}).column("u") for one in (paused, *sides)]
+    np.testing.assert_allclose(calm[0], np.concatenate(calm[1:]), atol=1e-12)
+    assert np.abs(calm[0] - whole.column("u")).max() > 0.005
+    assert seen_noise([paused], "u", passed) == pytest.approx(seen_noise(sides, "u", passed))
+    kept, by_sides = (left(trials, "u", 0.01, passed) for trials in ([paused], sides))
+    assert kept is not None and by_sides is not None
+    np.testing.assert_allclose(kept.share, by_sides.share)
+
+
+def test_a_spectrum_is_of_the_long_runs_of_a_trial() -> None:
+    whole, _ = trial(0.01, 0.5, 1)
+    time = whole.time + np.where(np.arange(1000) < 800, 0.0, 30.0)
+    seen, long = (spectrum([part(whole, time, own)], "u", STEP) for own in (slice(None), slice(0, 800)))
+    assert seen is not None and long is not None
+    np.testing.assert_allclose(seen.power, long.power)
+
+
+def part(whole: Trial, time: np.ndarray, rows: slice) -> Trial:
+    """Some rows of a trial, at these times."""
+    return replace(whole, signals=replace(whole.signals, time=time[rows], values=whole.signals.values[rows]))
 
 
 def test_without_noise_nothing_changes() -> None:

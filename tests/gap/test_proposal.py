@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.trial import Trial
-from geocontact.gap.experiment.menu import HELD, HOLDS, _settings, bench, menu, swap
+from geocontact.gap.experiment.menu import HELD, HOLDS, _settings, bench, longest_run, menu, swap
 from geocontact.gap.experiment.proposal import Rows
 from tests.elsewhere import Elsewhere
 from tests.gap.identifiability_cases import LAG, on_the_menu, proposed
@@ -19,6 +19,17 @@ from tests.systems.examples import KNEE_CONSTANTS, example, knee, knee_trial
 @pytest.fixture(scope="module")
 def changes(elsewhere: Elsewhere) -> dict[str, tuple[str, Trial]]:
     return elsewhere(on_the_menu)
+
+
+def test_what_is_changed_is_the_longest_run_of_a_trial_in_pieces() -> None:
+    trial = knee_trial("t01", 1.0)
+    assert longest_run(trial) is trial
+    count, signals = len(trial), trial.signals
+    time = signals.time + 100.0 * (np.arange(count) >= 0.3 * count)
+    later = longest_run(replace(trial, signals=replace(signals, time=time)))
+    first = int(np.ceil(0.3 * count))
+    np.testing.assert_array_equal(later.time, time[first:])
+    np.testing.assert_array_equal(later.signals.values, signals.values[first:])
 
 
 def test_a_faster_trial_goes_the_same_way_in_the_time_that_its_words_say(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -20,12 +21,12 @@ Column = np.ndarray
 Torque = Callable[[Column, Column], Column]
 
 
-def joint_case(torque: Torque, rate: float = 50.0) -> GapCase:
+def joint_case(torque: Torque, rate: float = 50.0, lasts: float = 3.0) -> GapCase:
     """An elastic joint whose torque has 0.1 N m of noise, which is stated; `torque` of time and angle.
 
-    Three seconds of `rate` samples a second.
+    Trials last three seconds, or `lasts`, of `rate` samples a second.
     """
-    rng, time, trials = np.random.default_rng(5), np.arange(round(3.0 * rate)) / rate, []
+    rng, time, trials = np.random.default_rng(5), np.arange(round(lasts * rate)) / rate, []
     for k in range(5):
         rate = 0.8 + 0.25 * k
         angle = 0.25 * np.sin(2.0 * np.pi * rate * time + k) + 0.1 * np.sin(2.0 * np.pi * 0.37 * rate * time)
@@ -49,6 +50,16 @@ def play(_: Column, angle: Column) -> Column:
     for each in angle[1:]:
         follows.append(min(max(follows[-1], each - 0.04), each + 0.04))
     return 31.0 * (np.array(follows) - 0.05)
+
+
+def drift(time: Column, angle: Column) -> Column:
+    """A spring, and a sensor that drifts by 3 N m over the trial."""
+    return 31.0 * (angle - 0.05) + 3.0 * time / time[-1]
+
+
+def spring(_: Column, angle: Column) -> Column:
+    """What the base model has."""
+    return 31.0 * (angle - 0.05)
 
 
 def wander(time: Column, angle: Column) -> Column:
@@ -113,6 +124,39 @@ def test_they_are_named_from_a_quick_recording(
     assert f"over blocks of {blocks} (" in said[0]
     assert (d["verdict"], d["effects"]) == ("explained", [effect]), d["remarks"]
     assert d["parameters"][parameter]["value"] == pytest.approx(size, abs=near)
+
+
+def answered_from_pieces(torque: Torque) -> tuple[dict[str, object], tuple[str, ...], list[int]]:
+    """Of trials of 20,000 samples of which a seventieth is used; what is said of that, and samples of inputs."""
+    case = joint_case(torque, lasts=400.0)
+    with patch("geocontact.analyses.gap.thinning.ROWS", 2400):
+        case, said = thinned_and_said(case, system_of(case))
+    trials = (*case.calibration, *case.evaluation)
+    return diagnose(case, system_of(case)).diagnosis.as_dict(), said, [len(one) for one in trials]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("torque", "effect", "parameter", "size"),
+    [
+        (late, "clock_slip", "clock_slip.once.delay", 0.09),
+        (play, "play", "play.angle.width", 0.08),
+        (drift, "sensor_drift", "sensor_drift.torque.rate", 3.0 / 399.98),
+        (spring, "", "k", 31.0),
+    ],
+)
+def test_long_trials_are_answered_like_short_ones(
+    elsewhere: Elsewhere, torque: Torque, effect: str, parameter: str, size: float
+) -> None:
+    """What lies half-way, what remembers and what grows over the trial are seen in pieces of it."""
+    d, said, samples = elsewhere(answered_from_pieces, torque)
+    verdict = "explained" if effect else "no_gap"
+    assert (d["verdict"], d["effects"]) == (verdict, [effect] if effect else []), d["remarks"]
+    low, high = d["parameters"][parameter]["ci95"]
+    assert low <= size <= high and high - low < 0.2 * size
+    assert "2400 are used, in stretches of 60" in said[-2]
+    assert f"samples of the inputs {sum(samples)} are used, those from 60 before each stretch on" in said[-1]
+    assert max(samples) < 2500
 
 
 @pytest.mark.slow

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 import tracemalloc
 from collections.abc import Callable
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 
+from geocontact.analyses.gap.thinning import thinned_and_said
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
@@ -195,6 +198,26 @@ def test_lost_samples_are_counted_in_each_trial() -> None:
     assert one is not None and one.share > 0.8 * size_of(rest)
     assert one.trials == {name: float(count) for name, (count, _) in LOST.items() if count}
     assert "7 in t0 at 44%" in one.words or "7 in t0 at 45%" in one.words
+
+
+def in_pieces(change: Callable[[str, Column], Column]) -> tuple[Diagnosis, int]:
+    """Of trials of 20,000 samples, a seventieth of which is used; how many samples of the inputs are."""
+    case = altered(joint_case(spring, lasts=400.0), change)
+    with patch("geocontact.analyses.gap.thinning.ROWS", 2400):
+        case, _ = thinned_and_said(case, system_of(case))
+    return diagnose(case, system_of(case)).diagnosis, len(case.calibration[0])
+
+
+@pytest.mark.slow
+def test_lost_samples_are_counted_in_pieces_of_long_trials(elsewhere: Elsewhere) -> None:
+    """The place of each to one piece of eight."""
+    d, samples = elsewhere(in_pieces, without)
+    assert samples < 2500 and d.verdict == "unknown"
+    (one,) = d.unmodelled
+    assert one.kind == "lost_samples" and one.share > 0.9
+    assert one.trials == {name: float(count) for name, (count, _) in LOST.items() if count}
+    for count, name, place in re.findall(r"(\d+) in (t\d) at (\d+)%", one.words):
+        assert (int(count), float(place)) == (LOST[name][0], pytest.approx(100.0 * LOST[name][1], abs=12.5))
 
 
 def test_lost_samples_take_what_they_cause_where_the_stiffness_is_off(monkeypatch: pytest.MonkeyPatch) -> None:

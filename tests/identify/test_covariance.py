@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
 from geocontact.identify.noise.covariance import Layout, NoiseBlock
-from geocontact.identify.noise.input_noise import Lasting, NoiseSpectrum
+from geocontact.identify.noise.input_noise import Instant, Lasting, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.signals.low_pass import LowPass
 from tests.identify.synthetic_noise import COUNT, LEVELS, PASSED, STEP, layout
@@ -145,3 +145,23 @@ def test_rates_of_unfiltered_noise_are_remembered_as_long_as_they_are_smoothed(s
     exact = np.zeros(len(lags))
     exact[: 2 * half + 1] = np.correlate(weights, weights, "full")[2 * half :]
     assert_allclose(both[0], exact, atol=0.03 * exact[0])
+
+
+def test_a_pause_ends_a_block_and_both_sides_weigh_as_two_trials() -> None:
+    """Noise is forgotten over a pause; a block of 120 rows would otherwise hold both of its sides."""
+    rng, time = np.random.default_rng(4), STEP * np.arange(100)
+    paused = np.concatenate([time[:55], time[55:] + 40.0 * STEP])
+    felt, one = rng.standard_normal((100, 1, 1)), np.ones((100, 1))
+    values = rng.standard_normal((100, 1, 3))
+    levels = NoiseLevels(
+        *(each[..., :1] for each in (LEVELS.white, LEVELS.coloured, LEVELS.memory, LEVELS.growing)), LEVELS.inputs
+    )
+
+    def whitened(rows: slice) -> tuple[np.ndarray, float]:
+        heard = Instant(paused[rows], felt[rows], 0.1 * felt[rows], (PASSED,))
+        whitener = Layout.of(paused[rows], one[rows] > 0.0, heard, one[rows], 0.0 * one[rows]).whitener(levels)
+        return whitener(values[rows]), whitener.log_scale
+
+    both, first, later = (whitened(rows) for rows in (slice(100), slice(55), slice(55, 100)))
+    assert_allclose(both[0], np.concatenate([first[0], later[0]]), atol=1e-12)
+    assert both[1] == pytest.approx(first[1] + later[1])

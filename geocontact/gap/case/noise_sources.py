@@ -220,11 +220,12 @@ def error_of_rates(system: System, trial: Trial, values: Mapping[str, float]) ->
 def coarse_rates(problem: Problem) -> tuple[str, ...]:
     """In words where the base model's prediction is off by more than DEVIATIONS of a channel's noise for this.
 
-    At the worst sample of all trials, as the last column of the placement has it; nothing for a channel whose rates are
-    told well enough everywhere.
+    At the worst measured sample of all trials, as the last column of the placement has it; nothing for a channel whose
+    rates are known well enough everywhere.
     """
     trials = problem.recorded.trials
-    errors = [np.abs(columns[..., -1]) for columns in problem.placement]
+    measured = zip(problem.placement, problem.recorded.present, strict=True)
+    errors = [np.where(there, np.abs(columns[..., -1]), 0.0) for columns, there in measured]
     told = []
     for c, name in enumerate(problem.system.outputs):
         most = [float(error[:, c].max()) / problem.floor_of_noise[c] for error in errors]

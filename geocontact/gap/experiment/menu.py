@@ -18,7 +18,7 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs, recorde
 from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
-from geocontact.data.trial import Trial
+from geocontact.data.trial import Trial, runs
 from geocontact.gap.levels import FEWEST
 
 ANGLE = "rad"
@@ -57,8 +57,8 @@ class Experiment:
 
 
 def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
-    """Every change that makes sense for a system, made to the trial of middling length."""
-    template = sorted(trials, key=len)[len(trials) // 2]
+    """Every change that makes sense for a system, made to the trial of middling length, or to its longest run."""
+    template = longest_run(sorted(trials, key=len)[len(trials) // 2])
     return (
         *paces(system, template),
         *_steps_and_holds(system, template),
@@ -67,6 +67,15 @@ def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
         *_swapped(system, template),
         *_settings(template, trials),
     )
+
+
+def longest_run(trial: Trial) -> Trial:
+    """What a trial recorded without a pause (`data.trial`) for longest; the trial where there is none."""
+    every = runs(trial.time)
+    if len(every) < 2:
+        return trial
+    rows, signals = max(every, key=lambda run: run.stop - run.start), trial.signals
+    return replace(trial, signals=replace(signals, time=signals.time[rows], values=signals.values[rows]))
 
 
 def band(system: System, trial: Trial) -> tuple[str, float, float]:

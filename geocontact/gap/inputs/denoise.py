@@ -12,15 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 from jaxtyping import Bool, Complex, Float, Int
 
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
-from geocontact.data.trial import Trial
-from geocontact.gap.inputs.spectrum import TREND, even_grid
+from geocontact.data.trial import Trial, runs
+from geocontact.gap.inputs.spectrum import TREND, even_grid, long_runs
 from geocontact.gap.inputs.spectrum_components import USUAL
 from geocontact.gap.levels import FEWEST, SLIGHT, SURE
 from geocontact.identify.noise.covariance import BLOCK_ROWS
@@ -141,15 +141,15 @@ def changed(
     change: Callable[[str, Float[np.ndarray, " n"], float], Float[np.ndarray, " n"]],
 ) -> Trial:
     """A trial with something added to some inputs, worked out on an even grid from name, values and step [s] there."""
-    time, grid = trial.time, even_grid(trial.time)
     values = trial.signals.values.copy()
-    for name in names:
-        column = trial.signals.channels.index(name)
-        there = np.isfinite(values[:, column])
+    for name, run in product(names, runs(trial.time)):
+        time, column = trial.time[run], values[run, trial.signals.channels.index(name)]
+        there = np.isfinite(column)
         if there.sum() < FEWEST:
             continue
-        even = np.interp(grid, time[there], values[there, column])
-        values[there, column] += np.interp(time[there], grid, change(name, even, float(grid[1] - grid[0])))
+        grid = even_grid(time)
+        even = np.interp(grid, time[there], column[there])
+        column[there] += np.interp(time[there], grid, change(name, even, float(grid[1] - grid[0])))
     return replace(trial, signals=replace(trial.signals, values=values))
 
 
@@ -196,10 +196,11 @@ def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, 
     """Evenly spaced values of an input and their step [s], of each trial that is long enough."""
     recordings = []
     for trial in trials:
-        column, grid = trial.column(name), even_grid(trial.time)
-        there = np.isfinite(column)
-        if there.sum() > FEWEST:
-            recordings.append((np.interp(grid, trial.time[there], column[there]), float(grid[1] - grid[0])))
+        for run in long_runs(trial.time):
+            column, time, grid = trial.column(name)[run], trial.time[run], even_grid(trial.time[run])
+            there = np.isfinite(column)
+            if there.sum() > FEWEST:
+                recordings.append((np.interp(grid, time[there], column[there]), float(grid[1] - grid[0])))
     return recordings
 
 
@@ -270,12 +271,14 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
     """
     found = []
     for trial in trials:
-        there, grid = np.isfinite(trial.column(name)), even_grid(trial.time)
-        if there.sum() < FEWEST:
-            continue
-        even = np.interp(grid, trial.time[there], trial.column(name)[there])
-        own = Stretches.of(even, float(grid[1] - grid[0]), passed)
-        found.append((np.fft.rfftfreq(own.width, grid[1] - grid[0]), 1.0 - own.shares(sd) * own.beside_cubics))
+        for run in runs(trial.time):
+            column, time = trial.column(name)[run], trial.time[run]
+            there = np.isfinite(column)
+            if there.sum() < FEWEST:
+                continue
+            grid = even_grid(time)
+            own = Stretches.of(np.interp(grid, time[there], column[there]), float(grid[1] - grid[0]), passed)
+            found.append((np.fft.rfftfreq(own.width, grid[1] - grid[0]), 1.0 - own.shares(sd) * own.beside_cubics))
     if not found:
         return None
     frequency = found[0][0]

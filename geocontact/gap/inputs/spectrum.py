@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.trial import Trial
+from geocontact.data.trial import Trial, runs
 from geocontact.gap.levels import FEWEST, FLAT, SLIGHT
 
 
@@ -16,6 +16,13 @@ def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
     """Evenly spaced times over a trial, about as many as there would be without missing rows."""
     steps = max(round((time[-1] - time[0]) / float(np.median(np.diff(time)))), 1)
     return np.linspace(time[0], time[-1], steps + 1)
+
+
+def long_runs(time: Float[np.ndarray, " t"]) -> list[slice]:
+    """Runs of a trial (`data.trial`) that are no shorter than half the longest: shorter ones blur a spectrum."""
+    found = runs(time)
+    longest = max(one.stop - one.start for one in found)
+    return [one for one in found if 2 * (one.stop - one.start) >= longest]
 
 
 MOST = 10  # steps that a small difference may be
@@ -90,18 +97,19 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
     if switches(trials, name):
         return None
     for trial in trials:
-        column = trial.column(name)
-        there = np.isfinite(column)
-        if there.sum() <= FEWEST:
-            continue
-        grid = even_grid(trial.time[there])
-        even = CubicSpline(trial.time[there], column[there])(grid)
-        u = np.linspace(-1.0, 1.0, len(grid))
-        window = nuttall(len(grid))
-        bent = even - np.polynomial.legendre.legval(u, np.polynomial.legendre.legfit(u, even, TREND))
-        frequency.append(np.fft.rfftfreq(len(grid), grid[1] - grid[0])[APART:-1:APART])
-        power.append((np.abs(np.fft.rfft(bent * window)) ** 2 / (window**2).sum())[APART:-1:APART])
-        values.append(column[there])
+        for run in long_runs(trial.time):
+            column, time = trial.column(name)[run], trial.time[run]
+            there = np.isfinite(column)
+            if there.sum() <= FEWEST:
+                continue
+            grid = even_grid(time[there])
+            even = CubicSpline(time[there], column[there])(grid)
+            u = np.linspace(-1.0, 1.0, len(grid))
+            window = nuttall(len(grid))
+            bent = even - np.polynomial.legendre.legval(u, np.polynomial.legendre.legfit(u, even, TREND))
+            frequency.append(np.fft.rfftfreq(len(grid), grid[1] - grid[0])[APART:-1:APART])
+            power.append((np.abs(np.fft.rfft(bent * window)) ** 2 / (window**2).sum())[APART:-1:APART])
+            values.append(column[there])
     if not values or not np.ptp(np.concatenate(values)) > 0.0:
         return None
     half_range = 0.5 * float(np.ptp(np.concatenate(values)))

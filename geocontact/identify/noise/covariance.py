@@ -22,6 +22,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
+from geocontact.data.trial import runs
 from geocontact.identify.noise.block_sums import carried, pulled, summed
 from geocontact.identify.noise.input_noise import InputNoise
 from geocontact.identify.noise.noise_levels import NoiseLevels
@@ -109,7 +110,7 @@ class Layout:
         spread: Float[np.ndarray, "t c"],
         signal: Float[np.ndarray, "t c"],
     ) -> Layout:
-        """Blocks of a trial.
+        """Blocks of a trial, none of them across a pause (`data.trial`).
 
         Parameters
         ----------
@@ -124,9 +125,11 @@ class Layout:
         signal
             What the noise of each sample may grow with.
         """
-        count = max(1, round(present.sum() / BLOCK_ROWS))
-        edges = [round(each) for each in np.linspace(0, len(time), count + 1)]
-        measured = [(a, b) for a, b in pairwise(edges) if present[a:b].any()]
+        measured = []
+        for run in runs(time):
+            count = max(1, round(present[run].sum() / BLOCK_ROWS))
+            edges = [round(each) for each in np.linspace(run.start, run.stop, count + 1)]
+            measured += [(a, b) for a, b in pairwise(edges) if present[a:b].any()]
         return cls(present.shape, tuple(_block(time, present, heard, spread, signal, a, b) for a, b in measured))
 
     def whitener(self, levels: NoiseLevels) -> Whitener:

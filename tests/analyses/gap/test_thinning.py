@@ -3,19 +3,40 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 
 import geocontact as gc
 from geocontact.analyses.gap import thinning
-from geocontact.analyses.gap.thinning import ROWS, STRETCH, measured_rows, read_thinned, stretches, thinned
+from geocontact.analyses.gap.thinning import (
+    AHEAD,
+    BEGINNING,
+    LEAD,
+    ROWS,
+    STRETCH,
+    measured_rows,
+    read_thinned,
+    rows_around,
+    stretches,
+    thinned,
+    thinned_and_said,
+    with_inputs_around,
+)
+from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.motion import Signals
+from geocontact.data.parameter import Parameter
 from geocontact.data.trial import Trial
+from geocontact.effects.catalogue import candidates
+from geocontact.gap.levels import FEWEST
 from geocontact.io.cases.gap_case_writer import write_gap_case
-from tests.gap.cases import elbow_case
+from geocontact.systems.catalogue import system_of
+from tests.gap.cases import TRUE, elbow_case
+from tests.systems.examples import measured, shoulder, shoulder_trial
 
 
 def case_of(samples: int, trials: int = 4) -> GapCase:
@@ -93,6 +114,90 @@ def test_stretches_spread_over_the_whole_trial() -> None:
     assert all(part.mean() == pytest.approx(0.2, abs=0.1) for part in np.split(used, 10))
 
 
+def test_inputs_stay_around_every_stretch_and_sparsely_between() -> None:
+    measured = np.zeros(20_000, dtype=bool)
+    measured[5000:5060] = measured[5100:5160] = measured[19_000:19_060] = True
+    rows = np.flatnonzero(np.any(rows_around(measured), axis=0))
+    whole = [(0, BEGINNING), (5000 - LEAD, 5160 + AHEAD), (19_000 - LEAD, 19_060 + AHEAD), (19_999, 20_000)]
+    for first, last in whole:
+        assert np.isin(np.arange(first, last), rows).all()
+    for (_, first), (last, _) in pairwise(whole):
+        there = rows[(rows >= first) & (rows < last)]
+        steps = np.diff([first - 1, *there, last])
+        assert steps.min() >= FEWEST and steps[-1] == FEWEST and len(there) < 25
+        assert (np.diff(steps[1:]) < 0).all() and np.ptp(steps[1:-1] / steps[2:]) < 0.1
+
+
+def test_a_short_pause_between_stretches_is_none() -> None:
+    measured = np.zeros(3_000, dtype=bool)
+    measured[700:760] = measured[860:920] = True  # 760 + AHEAD to 860 - LEAD are 20 samples: nothing is left out there
+    kept, sparse = rows_around(measured)
+    rows = np.flatnonzero(kept)
+    assert not (kept & sparse).any() and np.isin(np.arange(700 - LEAD, 920 + AHEAD), rows).all() and len(rows) < 1_000
+
+
+@pytest.mark.parametrize(
+    ("effect", "values", "most"),
+    [
+        ("", {}, 1e-6),
+        ("damping", {"damping.b": 40.0, "damping.exponent": 1.0}, 1e-6),
+        ("play.beta", {"play.beta.width": 0.05, "play.beta.start": 0.4}, 1e-6),
+        ("filter_lag", {"filter_lag.lag": 0.2, "filter_lag.order": 2.0}, 1e-6),
+        ("time_shift", {"time_shift.delay": 0.3}, 1e-6),
+        ("relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 0.6}, 1e-3),
+        ("relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 6.0}, 0.015),
+        ("relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 300.0}, 0.03),
+        ("sensor_drift.force", {"sensor_drift.force.rate": 0.02, "sensor_drift.force.bend": 1.0}, 1e-6),
+    ],
+)
+def test_pieces_are_simulated_as_in_the_whole_trial(effect: str, values: dict[str, float], most: float) -> None:
+    """What a model predicts of the samples in use, against its prediction from all inputs."""
+    case = elbow_case("", seed=3, duration=1200.0)
+    system = system_of(case).scaled(case.calibration, TRUE)
+    model = next((one.apply(system) for one in candidates(system) if one.label == effect), system)
+    assert bool(effect) == (model is not system)
+    with patch.object(thinning, "ROWS", 2_000):
+        fewer = with_inputs_around(thinned(case, ("force",)), ("force",))
+    for whole, pieces in zip(case.calibration, fewer.calibration, strict=True):
+        assert len(pieces) < 0.2 * len(whole) and pieces.time[-1] == whole.time[-1]
+        expected, found = (model.simulate(one, {**TRUE, **values}) for one in (whole, pieces))
+        used = np.isfinite(pieces.column("force"))
+        off = found[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
+        assert np.sqrt(np.mean(off**2)) < most * expected.std()
+
+
+def test_an_arm_that_swings_is_where_it_is_in_the_whole_trial() -> None:
+    """The shoulder has a motion of its own, which goes on between two pieces along the means of its input."""
+    system = shoulder()
+    whole = measured(system, shoulder_trial("t1", 1.0, 0.5, duration=200.0))
+    case = GapCase("long", "shoulder", (whole,), (), (), {}, {}, {})
+    with patch.object(thinning, "ROWS", 800):
+        (pieces,) = with_inputs_around(thinned(case, system.outputs), system.outputs).calibration
+    assert len(pieces) < 0.15 * len(whole)
+    expected, found = (system.simulate(one, system.start) for one in (whole, pieces))
+    used = np.isfinite(pieces.column("force"))
+    off = found[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
+    assert used.sum() > 300 and (np.sqrt(np.mean(off**2, axis=0)) < 3e-3 * expected.std(axis=0)).all()
+
+
+def test_simulators_of_others_see_all_inputs() -> None:
+    own, others = "geocontact.systems.elastic_joint:JOINT", "lab.models:JOINT"
+    said = {}
+    for system in (own, others, "command"):
+        case = replace(case_of(20_000), system=system)
+        fewer, said[system] = thinned_and_said(case, joint_of(case))
+        assert (len(fewer.calibration[0]) < 20_000) == (system == own)
+    assert len(said[others]) == len(said["command"]) == len(said[own]) - 1
+
+
+def joint_of(case: GapCase) -> System:
+    """An elastic joint that predicts the torque of `case_of`."""
+    joint = replace(
+        case, system="geocontact.systems.elastic_joint:JOINT", parameters=(Parameter("k", "N m/rad", 20.0, 5.0, 80.0),)
+    )
+    return system_of(joint)
+
+
 def test_a_long_case_is_warned_of_when_it_is_read(tmp_path: Path) -> None:
     case = elbow_case("", seed=1)
     write_gap_case(case, tmp_path / "short")
@@ -105,7 +210,8 @@ def test_a_long_case_is_warned_of_when_it_is_read(tmp_path: Path) -> None:
     with pytest.warns(gc.InputWarning, match="samples of the outputs .* are used, in stretches of 60"):
         given = read_thinned(tmp_path / "long", False)
     assert measured_rows(given.case, ("force",)) < 1.1 * ROWS
-    assert len(given.case.calibration[0]) == repeats * len(case.calibration[0])
+    whole, used = given.case.calibration[0], longer(case.calibration[0], repeats)
+    assert (whole.time[0], whole.time[-1]) == pytest.approx((used.time[0], used.time[-1]))
 
 
 def longer(trial: Trial, times: int) -> Trial:
