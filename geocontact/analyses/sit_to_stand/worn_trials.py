@@ -70,8 +70,8 @@ def confront_segments(subject: Subject, study: Path) -> None:
             value, table = getattr(segment, key), getattr(usual[name], key)
             doubt_value(f"{study} [person] {name}", key, value, table, segment.length, beside)
         if "centre" in values:
-            shares = (each.centre / each.length for each in (segment, usual[name]))
-            doubt_centre(f"{study} [person] {name}", *shares, "ankle" if name == "foot" else "lower joint")
+            share, known = (each.centre / each.length for each in (segment, usual[name]))
+            doubt_centre(f"{study} [person] {name}", share, known, "ankle" if name == "foot" else "lower joint")
 
 
 def joint_torques(

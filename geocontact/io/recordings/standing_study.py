@@ -176,8 +176,7 @@ class StandingPerson(DescribedPerson):
     segments
         Own values by segment: thigh, shank, foot, and head_arms_trunk.
     foot, shank, thigh, trunk
-        Former spelling of `segments`, with the mass centre from the lower joint, of the foot from the ankle forwards;
-        the trunk has head and arms, from the hips.
+        Former spelling, from the lower joint.
     """
 
     mass: Annotated[float, WithUnit(PERSON)] | None = None
