@@ -248,7 +248,7 @@ MALFORMED = {
     "lz4.vtp": (vtp(attributes='type="PolyData" compressor="vtkLZ4DataCompressor"'), "vtkLZ4DataCompressor"),
     "base64.vtp": (vtp(points="AAAA!").replace(b'"ascii"', b'"binary"', 1), "Points: cannot be read"),
     "nowhere.vtp": (vtp().replace(b'format="ascii"', b'format="appended" offset="99"', 1), "offset 99 is outside"),
-    "mesh.3mf": (zipped(), "not one of the formats that are read (.stl, .ply, .obj, .off, .vtp)"),
+    "mesh.3mf": (zipped(), "not one of the formats that are read (.stl, .ply, .obj, .off, .vtp, .step, .stp)"),
     "mesh": (STL, "not one of the formats"),
     "mesh.stl.gz": (gzip.compress(STL), "not one of the formats"),
 }
