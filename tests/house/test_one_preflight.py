@@ -28,6 +28,7 @@ WITHOUT = {
     "analyses/gap/benchmark/case.py": "adds to a file that was read",
     "analyses/prosthesis/design/trial.py": "a table of an open file",
     "data/stub_names.py": OWN,
+    "dynamics/machine_code.py": OWN,
     "geometry/kernels/compile.py": OWN,
     "io/opensim/muscle_paths.py": WRITTEN,
     "io/recordings/pose_draws.py": "arrays of an open file",
