@@ -26,7 +26,7 @@ from benchmarks.machine import ROOT, write_results
 from benchmarks.one_core import pin
 
 FRAMES = 1001
-ENGINES = ("warp (CPU), bounded to 4 mm + longest edge", "fcpw, bounded", "libigl", "open3d", "VTK cell locator")
+ENGINES = ("warp (CPU), bounded to 4 mm + longest edge", "fcpw, bounded", "libigl", "open3d", "VTK implicit distance")
 """Rows of the table of distances, by how their names begin; ours come first."""
 
 OURS = """

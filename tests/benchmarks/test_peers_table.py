@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -53,3 +54,18 @@ def test_a_side_that_fails_stops_the_measurement(tmp_path: Path) -> None:
     with pytest.raises(RuntimeError, match="failing: no"):
         measure(failing, tmp_path)
     assert not failing.whole
+
+
+def test_figures_of_the_page_are_those_of_the_results() -> None:
+    root = Path(__file__).resolve().parents[2]
+    told = json.loads((root / "benchmarks" / "results" / "peers_table.json").read_text(encoding="utf-8"))["figures"]
+    page = (root / "docs" / "reference" / "peers.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| `")]
+    assert len(rows) == len(told["jobs"]) == 5
+    for (_, _, whole, whole_ratio, again, again_ratio, _), job in zip(rows, told["jobs"], strict=True):
+        for cell, ratio, key in ((whole, whole_ratio, "whole"), (again, again_ratio, "again")):
+            medians = [f"{np.median(job[side][key]):.2f}" for side in ("ours", "peer")]
+            assert (cell, ratio) == (" / ".join(medians), f"{job[f'ratio_{key}']:.1f}")
+    for row in told["distances"]:
+        if row["engine"].startswith(("libigl", "open3d")):
+            assert round(row["ratio"]) == 27
