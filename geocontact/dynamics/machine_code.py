@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 PIECE = 500
 """Operations that are compiled at once."""
 VERSION = "1"
-"""Of this translation: code that an earlier one kept is not found."""
+"""Version of this translation: code that an earlier one kept is not found."""
 
 ARITHMETIC = {"ADD": "fadd", "SUB": "fsub", "MUL": "fmul", "DIV": "fdiv"}
 COMPARED = {"LT": "olt", "LE": "ole", "EQ": "oeq", "NE": "une"}
-"""Of CasADi's comparisons, which give 0 or 1; a NaN is unequal to everything, as in C."""
+"""CasADi's comparisons give 0 or 1; a NaN is unequal to everything, as in C."""
 SHORT = {
     "TWICE": "fadd double {0}, {0}",
     "SQ": "fmul double {0}, {0}",
@@ -118,8 +118,8 @@ def machine_code(function: Function) -> MachineCode | None:
 @cache
 def _target() -> tuple[Any, str] | None:
     """The machine to compile for, and its name; none of its extensions, so that a cache may be shared."""
-    import casadi
     import llvmlite
+    from casadi import CasadiMeta
     from llvmlite import binding
 
     try:
@@ -128,7 +128,7 @@ def _target() -> tuple[Any, str] | None:
         machine = binding.Target.from_default_triple().create_target_machine(opt=0, jit=True)
     except RuntimeError:
         return None
-    return machine, f"{machine.triple} llvmlite {llvmlite.__version__} casadi {casadi.__version__}"
+    return machine, f"{machine.triple} llvmlite {llvmlite.__version__} casadi {CasadiMeta.version()}"
 
 
 def _emitted(source: str, machine: Any) -> bytes:
@@ -150,7 +150,8 @@ def _placed(code: bytes, work: int) -> MachineCode:
 
 def _kept(file: Path) -> bytes | None:
     try:
-        content = file.read_bytes()
+        with file.open("rb") as stream:
+            content = stream.read()
     except OSError:
         return None
     code = content[32:]
@@ -210,7 +211,7 @@ def translated(function: Function) -> str | None:
     starts = range(0, len(operations), PIECE)
     for number, start in enumerate(starts):
         lines.append(f"define internal void @p{number}(double** %a, double** %r, double* %w) noinline {{")
-        lines += _Piece(operations, last, start, min(start + PIECE, len(operations))).lines()
+        lines += _Part(operations, last, start, min(start + PIECE, len(operations))).lines()
         lines += ["ret void", "}"]
     lines.append("define void @whole(double** %a, double** %r, double* %w) {")
     lines += [f"call void @p{number}(double** %a, double** %r, double* %w)" for number in range(len(starts))]
@@ -218,7 +219,8 @@ def translated(function: Function) -> str | None:
 
 
 def _operations(function: Function) -> list[_Operation]:
-    names, made, found = _names(), {}, []
+    names, found = _names(), list[_Operation]()
+    made: dict[int, int] = {}
     for k in range(function.n_instructions()):
         kind = names.get(function.instruction_id(k), "")
         taken, given = tuple(function.instruction_input(k)), tuple(function.instruction_output(k))
@@ -240,7 +242,7 @@ def _names() -> dict[int, str]:
     return {getattr(casadi, name): name[3:] for name in dir(casadi) if name.startswith("OP_")}
 
 
-class _Piece:
+class _Part:
     """Instructions of the operations from `first` to before `end`."""
 
     def __init__(self, operations: list[_Operation], last: list[int], first: int, end: int) -> None:

@@ -34,6 +34,7 @@ WITHOUT = {
     "app/samples.py": OWN,
     "app/server.py": "a page that the server wrote, for the browser",
     "data/stub_names.py": OWN,
+    "dynamics/machine_code.py": OWN,
     "geometry/kernels/compile.py": OWN,
     "io/opensim/muscle_paths.py": WRITTEN,
     "io/recordings/pose_draws.py": "arrays of an open file",

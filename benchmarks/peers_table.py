@@ -1,0 +1,319 @@
+"""Commands beside peers that do the same job, in one run on one core: `python -m benchmarks.peers_table [--rounds 3]`.
+
+Jobs of whole commands are those of synthetic files: scaled model, angles and moments of a swinging leg (OpenSim's
+tools run the set-up files that the commands write), spheres and cylinders (a script with scipy's least squares).
+Seconds are CPU, medians, peers turn by turn: of a new process from its start to its end, and of the same job done a
+second time in one process, without start and imports. The command also writes figures and page, the peer does not.
+Distances and clipped areas are of `benchmarks.area.measure`: trees built beforehand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.machine import ROOT, write_results
+from benchmarks.one_core import pin
+
+FRAMES = 1001
+ENGINES = ("warp (CPU), bounded to 4 mm + longest edge", "fcpw, bounded", "libigl", "open3d", "VTK implicit distance")
+"""Rows of the table of distances, by how their names begin; ours come first."""
+
+OURS = """
+import sys
+from geocontact.cli.main import run
+def job():
+    if run(sys.argv[2:]):
+        raise SystemExit("the command failed")
+"""
+OPENSIM = """
+import os, sys, opensim
+opensim.Logger.setLevelString("Off")
+os.chdir(sys.argv[3])
+def job():
+    if not getattr(opensim, sys.argv[2])(sys.argv[4]).run():
+        raise SystemExit("the tool failed")
+"""
+FITTED = """
+import sys
+import numpy as np
+from scipy.optimize import least_squares
+def job():
+    faces = np.fromfile(sys.argv[2], np.dtype([("n", "<f4", 3), ("x", "<f4", (3, 3)), ("a", "<u2")]), offset=84)
+    x = faces["x"].astype(float)
+    if sys.argv[3] == "sphere":
+        points = np.unique(x.reshape(-1, 3), axis=0)
+        found = least_squares(lambda v: np.linalg.norm(points - v[:3], axis=1) - v[3], [*points.mean(axis=0), 1.0])
+        print("radius", found.x[3], flush=True)
+        return
+    normals, middle = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), x.mean(axis=1)
+    outward = (normals[:, :2] * middle[:, :2]).sum(axis=1)
+    outward /= np.linalg.norm(normals, axis=1) * np.linalg.norm(middle[:, :2], axis=1)
+    points = np.unique(x[outward > 0.5].reshape(-1, 3), axis=0)
+    def off(v):
+        along = np.array([v[2], v[3], 1.0]) / np.sqrt(1.0 + v[2] ** 2 + v[3] ** 2)
+        return np.linalg.norm(np.cross(points - [v[0], v[1], 0.0], along), axis=1) - v[4]
+    print("radius", least_squares(off, [0.1, 0.1, 0.01, 0.01, 1.0]).x[4], flush=True)
+"""
+TIMED = """
+import sys, time
+for _ in range(int(sys.argv[1])):
+    began = time.process_time()
+    job()
+sys.stderr.write(f"\\nseconds {time.process_time() - began}\\n")
+"""
+
+
+@dataclass
+class Side:
+    """One of the two that do a job.
+
+    Parameters
+    ----------
+    name
+        Command, or library.
+    program, words
+        What Python runs, and with which words.
+    error
+        Of what it wrote, read from its output and its folder.
+    whole, again
+        CPU seconds from start to end, and of the second time in one process, by round.
+    """
+
+    name: str
+    program: str
+    words: Sequence[str]
+    error: Callable[[str], float]
+    said: str = ""
+    off: float = np.nan
+    whole: list[float] = field(default_factory=list)
+    again: list[float] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Job:
+    """A job, the unit and the meaning of its error, and both sides."""
+
+    name: str
+    error: str
+    ours: Side
+    peer: Side
+
+
+def main() -> None:
+    """Measure, print both tables, write the JSON."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.peers_table", description=__doc__.splitlines()[0])
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--frames", type=int, default=FRAMES, help="of the swinging leg")
+    parser.add_argument("--no-distances", action="store_true", help="whole commands only")
+    asked = parser.parse_args()
+    pin()
+    with tempfile.TemporaryDirectory() as folder:
+        jobs = all_jobs(Path(folder), asked.frames)
+        for job in jobs:
+            for _ in range(asked.rounds):
+                for side in (job.ours, job.peer):
+                    measure(side, Path(folder))
+            for side in (job.ours, job.peer):
+                side.off = side.error(side.said)
+    rows = [] if asked.no_distances else distances(asked.rounds)
+    print(text_of(jobs, rows))
+    figures = {"jobs": [record(job) for job in jobs], "distances": rows}
+    packages = {"opensim", "scipy", "libigl", "open3d", "fcpw", "warp-lang", "vtk"}
+    write_results("peers_table", {"rounds": asked.rounds, "frames": asked.frames}, figures, packages)
+
+
+def all_jobs(folder: Path, frames: int) -> list[Job]:
+    """Files of the jobs, written by the commands, and the jobs."""
+    model = str(ROOT / "meshes" / "leg.osim")
+    truth = swing(folder / "swing.mot", frames)
+    command(folder, "markers", "swing.mot", "--model", model, "--out", "v")
+    still = ["--time", "0:0.05", "--scale", "femur_r=femur_r0/femur_r2", "--scale", "tibia_r=tibia_r0/tibia_r2"]
+    scale = ["scale", "v/markers.trc", "--model", model, "--mass", "30", *still, "--out", "s"]
+    angles = ["ik", "v/markers.trc", "--model", model, "--out", "a"]
+    moments = ["id", "a/ik.mot", "--model", model, "--out", "m"]
+    for words in (scale, angles, moments):  # what the tools read
+        command(folder, *words)
+    centres = mass_centres(Path(model))
+
+    def moved(file: str) -> Callable[[str], float]:
+        return lambda _: float(1e3 * np.abs(mass_centres(folder / file) - centres).max())
+
+    def turned(file: str) -> Callable[[str], float]:
+        return lambda _: float(np.abs(motion(folder / file)[:, 1:4] - truth[:, 1:4]).max())
+
+    def pulled(_: str) -> float:
+        own, theirs = motion(folder / "m" / "id.sto"), motion(folder / "m" / "opensim_id.sto")
+        return float(np.abs(own - theirs)[:, 1:].max())
+
+    def tool(kind: str, setup: str, error: Callable[[str], float]) -> Side:
+        return Side(f"OpenSim {kind}", OPENSIM, [kind, *setup.split("/")], error)
+
+    def ours(words: list[str], error: Callable[[str], float]) -> Side:
+        return Side(words[0], OURS, words, error)
+
+    solids = [
+        fit_job(folder, "sphere", "sphere_r18.stl", 18.0),
+        fit_job(folder, "cylinder", "cylinder_r15_l40.stl", 15.0),
+    ]
+    return [
+        Job(
+            "a scaled model",
+            "mass centres, mm",
+            ours(scale, moved("s/scaled.osim")),
+            tool("ScaleTool", "s/setup_scale.xml", moved("s/opensim_scaled.osim")),
+        ),
+        Job(
+            f"angles of {frames} frames",
+            "angles, deg",
+            ours(angles, turned("a/ik.mot")),
+            tool("InverseKinematicsTool", "a/setup_ik.xml", turned("a/opensim_ik.mot")),
+        ),
+        Job(
+            f"moments of {frames} frames",
+            "between the two, N and N m",
+            ours(moments, pulled),
+            tool("InverseDynamicsTool", "m/setup_id.xml", pulled),
+        ),
+        *solids,
+    ]
+
+
+def fit_job(folder: Path, shape: str, name: str, radius: float) -> Job:
+    """A fit to a solid whose radius is known [mm]."""
+    mesh = str(ROOT / "meshes" / name)
+    words = ["fit", mesh, "--shape", shape, "--unit", "mm", "--out", shape]
+    words += ["--axis", "0,0,0,0,0,1", "--region", "outward>0.5"] if shape == "cylinder" else []
+
+    def own(_: str) -> float:
+        return abs(float(json.loads((folder / shape / "fit.json").read_text(encoding="utf-8"))["radius_mm"]) - radius)
+
+    peer = Side(
+        "scipy.optimize.least_squares", FITTED, [mesh, shape], lambda said: abs(float(said.split()[-1]) - radius)
+    )
+    return Job(f"a {shape} fitted", "radius, mm", Side("fit", OURS, words, own), peer)
+
+
+def measure(side: Side, folder: Path) -> None:
+    """One round: the whole in a process of its own, and the second time in another."""
+    for times, seconds in ((1, side.whole), (2, side.again)):
+        program = [sys.executable, "-c", side.program + TIMED, str(times), *side.words]
+        before = os.times()
+        done = subprocess.run(program, cwd=folder, env=environment(), capture_output=True, text=True, check=False)
+        after = os.times()
+        if done.returncode:
+            raise RuntimeError(f"{side.name}: {done.stderr}")
+        told = float(done.stderr.rpartition("seconds ")[2])
+        spent = after.children_user + after.children_system - before.children_user - before.children_system
+        seconds.append(spent if times == 1 else told)
+    side.said = done.stdout
+
+
+def command(folder: Path, *words: str) -> None:
+    """Run one of ours, which also fills its caches."""
+    measure(Side(words[0], OURS, words, lambda _: 0.0), folder)
+
+
+def environment() -> dict[str, str]:
+    """That of this process, with the checkout first."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])}
+
+
+def swing(file: Path, frames: int) -> np.ndarray:
+    """The shipped swing, drawn out to so many frames at 100 Hz, as a motion file; its values [s, deg, m]."""
+    head, _, body = (ROOT / "meshes" / "leg_swing.mot").read_text(encoding="utf-8").partition("endheader\n")
+    names, _, rows = body.partition("\n")
+    values = np.loadtxt(rows.splitlines())
+    wanted = np.linspace(values[0, 0], values[-1, 0], frames)
+    drawn = np.column_stack([np.interp(wanted, values[:, 0], column) for column in values.T])
+    drawn[:, 0] = 0.01 * np.arange(frames)
+    lines = ["\t".join(f"{value:.9f}" for value in row) for row in drawn]
+    head = re.sub(r"nRows=\d+", f"nRows={frames}", head)
+    file.write_text(f"{head}endheader\n{names}\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return drawn
+
+
+def motion(file: Path) -> np.ndarray:
+    """Values of a .mot or .sto, time first."""
+    return np.loadtxt(file.read_text(encoding="utf-8").partition("endheader\n")[2].splitlines()[1:])
+
+
+def mass_centres(model: Path) -> np.ndarray:
+    """Those of a model's bodies, in its order [m]."""
+    found = re.findall(r"<mass_center>([^<]*)</mass_center>", model.read_text(encoding="utf-8"))
+    return np.array([[float(each) for each in one.split()] for one in found])
+
+
+def distances(rounds: int) -> list[dict[str, float | str]]:
+    """Rows of `benchmarks.area` that stand for each library."""
+    from benchmarks.area.measure import measured
+    from benchmarks.engines.all import all_engines
+    from benchmarks.engines.ours import OURS as MAP
+    from benchmarks.pairs import PAIRS
+
+    engines = [each for each in all_engines() if each.name == MAP or each.name.startswith(ENGINES)]
+    rows = measured(PAIRS["knee"](50_000, 101), engines, rounds, lambda line: print(line, file=sys.stderr, flush=True))
+    ours = next(row for row in rows if row.engine.name == MAP)
+    return [
+        {
+            "engine": row.engine.name,
+            "cpu_s": float(np.median(row.cpu)),
+            "ratio": row.ratio(ours),
+            "distance_error_mm": 1e3 * row.distance_error,
+            "area_error": row.area_error,
+        }
+        for row in rows
+        if not row.skipped
+    ]
+
+
+def ratios(job: Job) -> tuple[float, float]:
+    """Peer over ours, medians over the rounds: whole, and without start."""
+    whole, again = (np.median(np.array(a) / np.array(b)) for a, b in zip(_of(job.peer), _of(job.ours), strict=True))
+    return float(whole), float(again)
+
+
+def _of(side: Side) -> tuple[list[float], list[float]]:
+    return side.whole, side.again
+
+
+def record(job: Job) -> dict[str, object]:
+    """What is written of a job."""
+    sides = {
+        key: {name: value for name, value in asdict(side).items() if name not in ("program", "words", "error", "said")}
+        for key, side in (("ours", job.ours), ("peer", job.peer))
+    }
+    whole, again = ratios(job)
+    return {"job": job.name, "error": job.error, **sides, "ratio_whole": whole, "ratio_again": again}
+
+
+def text_of(jobs: Sequence[Job], rows: Sequence[dict[str, float | str]]) -> str:
+    """Both tables in Markdown."""
+    lines = ["| job | command | peer | whole, CPU s | ratio | without start | ratio | errors |", "|---" * 8 + "|"]
+    for job in jobs:
+        whole, again = ratios(job)
+        medians = [[float(np.median(each)) for each in _of(side)] for side in (job.ours, job.peer)]
+        columns = [f"{medians[0][k]:.2f} / {medians[1][k]:.2f} | {ratio:.1f}" for k, ratio in enumerate((whole, again))]
+        errors = f"{job.ours.off:.1g} / {job.peer.off:.1g} ({job.error})"
+        lines.append(f"| {job.name} | `{job.ours.name}` | {job.peer.name} | {' | '.join(columns)} | {errors} |")
+    lines += (
+        ["", "| engine | CPU s | ÷ geocontact | distance error, mm | area error |", "|---" * 5 + "|"] if rows else []
+    )
+    for row in rows:
+        figures = f"{row['cpu_s']:.2f} | {row['ratio']:.1f} | {row['distance_error_mm']:.0e} | {row['area_error']:.0e}"
+        lines.append(f"| {row['engine']} | {figures} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""The table of peers: what it reads, how it writes, and that a side that fails is no figure."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.peers_table import FITTED, Job, Side, fit_job, mass_centres, measure, motion, ratios, swing, text_of
+
+
+def side(name: str, whole: list[float], again: list[float]) -> Side:
+    return Side(name, "def job():\n    pass\n", [], lambda _: 0.0, off=0.25, whole=whole, again=again)
+
+
+def test_ratios_are_of_the_same_round() -> None:
+    """A busy third round slows both alike."""
+    job = Job("a job", "mm", side("ours", [1.0, 2.0, 30.0], [1.0] * 3), side("peer", [3.0, 6.0, 90.0], [0.5] * 3))
+    assert ratios(job) == (3.0, 0.5)
+    row = text_of([job], []).splitlines()[-1]
+    assert row == "| a job | `ours` | peer | 2.00 / 6.00 | 3.0 | 1.00 / 0.50 | 0.5 | 0.2 / 0.2 (mm) |"
+
+
+def test_the_swing_is_drawn_out(tmp_path: Path) -> None:
+    drawn = swing(tmp_path / "swing.mot", 401)
+    read = motion(tmp_path / "swing.mot")
+    np.testing.assert_allclose(read, drawn, atol=1e-9)
+    assert read.shape == (401, 12) and read[-1, 0] == pytest.approx(4.0)
+    shipped = motion(Path(__file__).resolve().parents[2] / "meshes" / "leg_swing.mot")
+    np.testing.assert_allclose(read[::4, 1:], shipped[:, 1:], atol=1e-8)
+
+
+def test_mass_centres_are_read_in_the_order_of_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "model.osim"
+    file.write_text("<a><mass_center>1 2 3</mass_center></a><b><mass_center>0 -1 4.5</mass_center></b>")
+    np.testing.assert_array_equal(mass_centres(file), [[1, 2, 3], [0, -1, 4.5]])
+
+
+def test_the_script_with_scipy_finds_the_radii(tmp_path: Path) -> None:
+    for shape, name, radius in (("sphere", "sphere_r18.stl", 18.0), ("cylinder", "cylinder_r15_l40.stl", 15.0)):
+        peer = fit_job(tmp_path, shape, name, radius).peer
+        assert peer.program == FITTED
+        measure(peer, tmp_path)
+        assert len(peer.whole) == len(peer.again) == 1 and 0.0 < peer.again[0] < peer.whole[0]
+        assert re.search(r"radius \d+", peer.said) and peer.error(peer.said) < 1e-4
+        assert fit_job(tmp_path, shape, name, radius + 1.0).peer.error(peer.said) == pytest.approx(1.0, abs=1e-4)
+
+
+def test_a_side_that_fails_stops_the_measurement(tmp_path: Path) -> None:
+    failing = Side("failing", "def job():\n    raise SystemExit('no')\n", [], lambda _: 0.0)
+    with pytest.raises(RuntimeError, match="failing: no"):
+        measure(failing, tmp_path)
+    assert not failing.whole
+
+
+def test_figures_of_the_page_are_those_of_the_results() -> None:
+    root = Path(__file__).resolve().parents[2]
+    told = json.loads((root / "benchmarks" / "results" / "peers_table.json").read_text(encoding="utf-8"))["figures"]
+    page = (root / "docs" / "reference" / "peers.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| `")]
+    assert len(rows) == len(told["jobs"]) == 5
+    for (_, _, whole, whole_ratio, again, again_ratio, _), job in zip(rows, told["jobs"], strict=True):
+        for cell, ratio, key in ((whole, whole_ratio, "whole"), (again, again_ratio, "again")):
+            medians = [f"{np.median(job[side][key]):.2f}" for side in ("ours", "peer")]
+            assert (cell, ratio) == (" / ".join(medians), f"{job[f'ratio_{key}']:.1f}")
+    for row in told["distances"]:
+        if row["engine"].startswith(("libigl", "open3d")):
+            assert round(row["ratio"]) == 27
