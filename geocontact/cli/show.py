@@ -13,7 +13,7 @@ from geocontact.analyses.frame.record import Listener
 SILENCE = 2.5  # s; as long may compiling last without a word
 AGAIN = 0.5
 """s between two looks whether something is compiled."""
-COMPILING = "compiling the distance kernels, once on this machine (about half a minute) …"
+COMPILING = "compiling the distance kernels, once on this machine (about 15 s) …"
 PAUSE = 30.0
 """s between two lines on how far the work is, where stderr is a file or a pipe."""
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
-from scipy.interpolate import PchipInterpolator
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +31,8 @@ class TiltedAreas:
 
     @cached_property
     def _between(self) -> PchipInterpolator:
+        from scipy.interpolate import PchipInterpolator  # a fifth of a second, and only calibrations call it
+
         return PchipInterpolator(self.offsets, self.area, axis=2)
 
     def at(self, offset: float) -> Float[np.ndarray, "t k"]:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import make_interp_spline
 
 from geocontact.data.multibody.model import GROUND, CoordinateLimit, CoordinateSpring, FrameBushing, PassiveForce
 from geocontact.data.wrench import Wrench
@@ -202,6 +201,7 @@ def _over_time(
 ) -> Float[np.ndarray, "w k"]:
     """A column of expressions of the state and of what acts on bodies, at the times that are wanted."""
     from casadi import SX, Function, vertcat
+    from scipy.interpolate import make_interp_spline
 
     unknown = set(loads) - set(tree.bodies)
     if unknown:

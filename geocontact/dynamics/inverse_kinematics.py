@@ -20,7 +20,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.interpolate import CubicSpline
 from scipy.linalg import qr
 from scipy.linalg.lapack import dpotrf, dpotrs
 
@@ -246,6 +245,8 @@ def _filled(
     time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t n"], determined: Bool[np.ndarray, "t n"], longest: float
 ) -> Float[np.ndarray, "t n"]:
     """What is not determined, over short gaps by a cubic spline through what is, else NaN."""
+    from scipy.interpolate import CubicSpline
+
     found = np.where(determined, values, np.nan)
     for k in np.flatnonzero(~determined.all(axis=0)):
         known = np.flatnonzero(determined[:, k])

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import CubicHermiteSpline
 
 from geocontact.dynamics.compiled import Buffered
 from geocontact.dynamics.equations import Equations, solved
@@ -282,6 +281,8 @@ class Stepper:
         self, x: Vector, time: Float[np.ndarray, " t"], at: Inputs, p: Vector, control: StepControl
     ) -> SimulatedMotion:
         """The loop in Python: for inputs of any kind, for derivatives, and where there is no compiler."""
+        from scipy.interpolate import CubicHermiteSpline
+
         steps, n = control.steps, len(self.equations.names)
         now, end = float(time[0]), float(time[-1])
         span = end - now

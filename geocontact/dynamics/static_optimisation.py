@@ -15,7 +15,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import lsq_linear
 
 RESERVE = 1.0
 """N m along a turn, N along a way and of a contact: what a reserve makes at the cost of a muscle at full activation."""
@@ -79,6 +78,8 @@ def static_optimisation(
     moments
         What muscles are to make along the coordinates [N m].
     """
+    from scipy.optimize import lsq_linear
+
     frames, count = len(moments), len(strongest)
     found = np.empty((frames, count))
     for t in range(frames):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-import igl
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int32
 
@@ -18,6 +18,9 @@ from geocontact.geometry.kernels.triangle import LEAF, triangle_frames
 from geocontact.geometry.kernels.wide import ROWS, widen
 from geocontact.geometry.shapes import Proximity
 from geocontact.geometry.topology import Topology, neighbours, signed_volume, topology
+
+if TYPE_CHECKING:
+    import igl
 
 EDGES = ((0, 1), (0, 2), (1, 2))
 """Corners of the record that each edge joins, in the order of `closest_point`."""
@@ -247,6 +250,8 @@ class Surface:
     @cached_property
     def winding(self) -> igl.FastWindingNumberBVH:
         """libigl's fast winding number about the centre (Barill et al., ACM TOG 37(4), 2018)."""
+        import igl
+
         bvh = igl.FastWindingNumberBVH()
         bvh.init(self.local, self.faces.astype(np.int64))
         return bvh

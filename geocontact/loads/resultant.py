@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.frame_blocks import release, room
@@ -67,6 +66,8 @@ def pose_rate(time: Float[np.ndarray, " t"], poses: RigidTransform) -> Float[np.
     the velocity of the spline through its own recorded positions: the same in every frame, the error of third order in
     the time step. Linear with two or three frames, zero with one. Nothing is smoothed: filter noisy motion beforehand.
     """
+    from scipy.interpolate import make_interp_spline
+
     if len(time) == 1:
         return np.zeros((1, 4, 4))
     found, order = room((len(time), 4, 4)), CUBIC if len(time) > CUBIC else 1

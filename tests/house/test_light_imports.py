@@ -54,6 +54,39 @@ def test_help_of_every_command_is_light() -> None:
     loaded_by(EVERY_HELP)
 
 
+SLOW = {
+    "igl",
+    "matplotlib",
+    "scipy.integrate",
+    "scipy.interpolate",
+    "scipy.optimize",
+    "scipy.signal",
+    "scipy.stats",
+    "trimesh",
+}
+"""A tenth of a second each, needed by few steps of a job: imported in the function that calls them."""
+USUAL = (
+    "area.result",
+    "area.pairs.result",
+    "cop.result",
+    "loadcells.result",
+    "mat.result",
+    "motion.functional_joint.result",
+    "motion.inverse_dynamics.result",
+    "motion.inverse_kinematics.result",
+    "motion.scale.result",
+    "motion.virtual_markers.result",
+    "shape.result",
+)
+"""Modules of the jobs that are called most."""
+
+
+@pytest.mark.parametrize("module", USUAL)
+def test_a_job_starts_without_what_few_steps_need(module: str) -> None:
+    program = f"import sys, geocontact.analyses.{module}; found = {SLOW} & set(sys.modules); assert not found, found"
+    loaded_by(program)
+
+
 def imported_at_the_top(file: Path) -> set[str]:
     """Top-level packages that a module imports when it is imported."""
     names: set[str] = set()

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
 
@@ -28,6 +27,8 @@ class Followed:
 
     def at(self, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
         """By a cubic spline; ValueError beyond the ends."""
+        from scipy.interpolate import CubicSpline
+
         first, last = self.time[0] - 1e-6, self.time[-1] + 1e-6
         if time.min() < first or time.max() > last:
             raise ValueError(f"runs from {self.time[0]:g} to {self.time[-1]:g} s, markers to {time.max():g} s")

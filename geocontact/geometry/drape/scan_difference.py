@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.optimize import least_squares
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -143,6 +142,8 @@ def _first_turn(plane: Float[np.ndarray, "n 2"]) -> float:
 
 def _lines(plane: Float[np.ndarray, "n 2"], length: Float[np.ndarray, " n"]) -> Float[np.ndarray, "4 3"]:
     """Sides behind, to the right, ahead, to the left: axis, offset along it, slope against the other."""
+    from scipy.optimize import least_squares
+
     low, high = np.percentile(plane, [TRIMMED, 100.0 - TRIMMED], axis=0)
     to = np.abs(np.stack([plane[:, 0] - low[0], plane[:, 1] - low[1], plane[:, 0] - high[0], plane[:, 1] - high[1]]))
     side = to.argmin(axis=0)

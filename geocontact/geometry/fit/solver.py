@@ -17,7 +17,6 @@ from typing import Any, ClassVar, Generic, Literal, Protocol, TypeVar, runtime_c
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import least_squares
 
 
 def half_sphere(count: int) -> list[Float[np.ndarray, " 3"]]:
@@ -128,6 +127,7 @@ def _settled(
 
 def _searched(points: Float[np.ndarray, "n 3"], model: M, loss: Loss, scale: float, tolerance: float) -> tuple[M, bool]:
     """One search from the model's own parameters, and whether it ended by itself."""
+    from scipy.optimize import least_squares
 
     def residual(x: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         return model.residual(x, points)

@@ -60,9 +60,9 @@ def signed_distances(tree, points, limit, sphere, signed):
     """
     n = len(points)
     distance = np.empty(n)
-    side = np.ones(n, np.int8)
-    slot = np.full(n, -1)
-    closest = np.full((n, 3), np.nan)
+    side = np.empty(n, np.int8)
+    slot = np.empty(n, np.int64)
+    closest = np.empty((n, 3))
     root, boxes, child, leaves, fill = tree.root, tree.boxes, tree.child, tree.leaves, tree.fill
     slots, normal, row = tree.slots, tree.normal, tree.row
     nodes, keys, square, fan = scratch()
@@ -82,6 +82,8 @@ def signed_distances(tree, points, limit, sphere, signed):
         for i in range(first, last):
             distance[i] = limit[i]
             side[i] = central
+            slot[i] = -1
+            closest[i, 0] = closest[i, 1] = closest[i, 2] = np.nan
             if hint < 0:
                 continue
             x, y, z = points[i, 0], points[i, 1], points[i, 2]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel, part
 
 BUNDLE = 4  # triangles in a leaf
 BINS = 16
@@ -30,42 +30,57 @@ class Binary(NamedTuple):
 def build(lower, upper):
     """The tree over triangles with these boxes, lower and upper corners (m, 3)."""
     m = len(lower)
-    order = np.arange(m)
-    centre = 0.5 * (lower + upper)
+    order = np.empty(m, np.int64)
+    centre = np.empty((m, 3))
+    for i in range(m):
+        order[i] = i
+        for k in range(3):
+            centre[i, k] = 0.5 * (lower[i, k] + upper[i, k])
     box = np.empty((2 * m + 1, 6))
-    meta = np.empty((2 * m + 1, 2), np.int64)
+    start = np.empty(2 * m + 1, np.int64)
+    count = np.empty(2 * m + 1, np.int64)
     todo = np.empty((4 * DEPTH + 64, 4), np.int64)  # node, first, last, depth
-    todo[0] = np.array([0, 0, m, 0])
-    waiting = 1
+    waiting = _wait(todo, 0, 0, 0, m, 0)
     used = 1
     while waiting > 0:
         waiting -= 1
-        node, first, last, depth = todo[waiting]
+        node, first, last, depth = todo[waiting, 0], todo[waiting, 1], todo[waiting, 2], todo[waiting, 3]
         _enclose(lower, upper, order, first, last, box[node])
         if last - first <= BUNDLE:
-            meta[node, 0] = first
-            meta[node, 1] = last - first
+            start[node] = first
+            count[node] = last - first
             continue
         middle = _split(lower, upper, centre, order, first, last, depth)
-        meta[node, 0] = used
-        meta[node, 1] = 0
+        start[node] = used
+        count[node] = 0
         # the larger half waits, so that the list of waiting nodes stays short
-        todo[waiting] = np.array([used, first, middle, depth + 1])
-        todo[waiting + 1] = np.array([used + 1, middle, last, depth + 1])
         if middle - first < last - middle:
-            todo[waiting] = np.array([used + 1, middle, last, depth + 1])
-            todo[waiting + 1] = np.array([used, first, middle, depth + 1])
-        waiting += 2
+            waiting = _wait(todo, waiting, used + 1, middle, last, depth + 1)
+            waiting = _wait(todo, waiting, used, first, middle, depth + 1)
+        else:
+            waiting = _wait(todo, waiting, used, first, middle, depth + 1)
+            waiting = _wait(todo, waiting, used + 1, middle, last, depth + 1)
         used += 2
-    pairs = np.zeros((used, 12))
+    pairs = np.zeros(12 * used)
     for node in range(used):
-        if meta[node, 1] == 0:
-            pairs[node, :6] = box[meta[node, 0]]
-            pairs[node, 6:] = box[meta[node, 0] + 1]
-    return Binary(box[0].copy(), pairs.ravel(), meta[:used, 0].copy(), meta[:used, 1].copy(), order)
+        if count[node] == 0:
+            for k in range(6):
+                pairs[12 * node + k] = box[start[node], k]
+                pairs[12 * node + 6 + k] = box[start[node] + 1, k]
+    return Binary(box[0].copy(), pairs, start[:used].copy(), count[:used].copy(), order)
 
 
-@kernel
+@part
+def _wait(todo, waiting, node, first, last, depth):
+    """Put a node on the list; returns its new length."""
+    todo[waiting, 0] = node
+    todo[waiting, 1] = first
+    todo[waiting, 2] = last
+    todo[waiting, 3] = depth
+    return waiting + 1
+
+
+@inner
 def _enclose(lower, upper, order, first, last, out):
     for k in range(3):
         lo = np.inf
@@ -77,9 +92,9 @@ def _enclose(lower, upper, order, first, last, out):
         out[k + 3] = hi
 
 
-@kernel
+@inner
 def _split(lower, upper, centre, order, first, last, depth):
-    axis = 0
+    axis = first - first  # a number, not the literal 0, for which what is called would be compiled once more
     extent = -1.0
     low = 0.0
     for k in range(3):
@@ -101,16 +116,41 @@ def _split(lower, upper, centre, order, first, last, depth):
                 middle += 1
         if first < middle < last:
             return middle
-    part = order[first:last].copy()
-    order[first:last] = part[np.argsort(centre[part, axis], kind="mergesort")]
+    _sort(centre, axis, order, first, last)
     return (first + last) // 2
 
 
-@kernel
+@inner
+def _sort(centre, axis, order, first, last):
+    """Slots from `first` to `last` by their centre along an axis, equal ones as they were: merged from below."""
+    spare = np.empty(last - first, np.int64)
+    width = 1
+    while width < last - first:
+        for start in range(first, last, 2 * width):
+            middle, end = min(start + width, last), min(start + 2 * width, last)
+            i, j = start, middle
+            for k in range(start - first, end - first):
+                if i < middle and (j >= end or centre[order[i], axis] <= centre[order[j], axis]):
+                    spare[k] = order[i]
+                    i += 1
+                else:
+                    spare[k] = order[j]
+                    j += 1
+        for k in range(last - first):
+            order[first + k] = spare[k]
+        width *= 2
+
+
+@inner
 def _cheapest_bin(lower, upper, centre, order, first, last, axis, low, extent):
-    lo = np.full((BINS, 3), np.inf)
-    hi = np.full((BINS, 3), -np.inf)
-    count = np.zeros(BINS, np.int64)
+    lo = np.empty((BINS, 3))
+    hi = np.empty((BINS, 3))
+    count = np.empty(BINS, np.int64)
+    for b in range(BINS):
+        count[b] = 0
+        for k in range(3):
+            lo[b, k] = np.inf
+            hi[b, k] = -np.inf
     for i in range(first, last):
         t = order[i]
         b = min(int(BINS * (centre[t, axis] - low) / extent), BINS - 1)

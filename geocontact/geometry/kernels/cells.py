@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import closest_point
 
@@ -96,7 +96,7 @@ def measured_cells(tree, low, edge, count, signed):
     return near, place, side, span
 
 
-@kernel
+@inner
 def _nearest_triangle(boxes, child, leaves, fill, x, y, z, hint, nodes, keys, square, fan):
     """Squared distance and place of the nearest triangle, the place of a neighbour's being a first guess."""
     qx, qy, qz, _, _ = closest_point(leaves, offset(hint), x, y, z)

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.clip import fraction_below
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 
 ROUND = 1e-12  # relative allowance for rounding in the certificates
 
@@ -33,7 +33,6 @@ def certify(faces, points, distance, side, slot, closest, edges, threshold, sign
     """
     lower = np.zeros(len(faces))
     upper = np.zeros(len(faces))
-    near = (slot >= 0) | (side <= 0)
     v = np.empty((3, 3))
     p = np.empty((3, 3))
     d = np.empty(3)
@@ -41,7 +40,7 @@ def certify(faces, points, distance, side, slot, closest, edges, threshold, sign
     found = np.empty(3, np.bool_)
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
-        if not (near[i] or near[j] or near[k]):
+        if min(side[i], min(side[j], side[k])) > 0 and max(slot[i], max(slot[j], slot[k])) < 0:
             continue  # all corners farther than the threshold by more than the longest edge
         e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
         verdict = _by_one_corner(i, max(e1, e2), distance, side, slot, threshold, signed)
@@ -82,7 +81,7 @@ def totals(lower, upper, area, moment, negative):
     return sums, undecided[:count].copy()
 
 
-@kernel
+@inner
 def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     """1 when the triangle lies within the threshold for certain, -1 when outside, 0 when one corner cannot tell.
 
@@ -99,12 +98,7 @@ def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     return 0
 
 
-@kernel
-def _length(v, i, p, j):
-    return np.sqrt((v[i, 0] - p[j, 0]) ** 2 + (v[i, 1] - p[j, 1]) ** 2 + (v[i, 2] - p[j, 2]) ** 2)
-
-
-@kernel
+@inner
 def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     slack = ROUND * (e0 + e1 + e2 + threshold)
     outside = threshold + slack
@@ -125,20 +119,21 @@ def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     return lower, 1.0
 
 
-@kernel
+@inner
 def _surely_within(v, p, found, threshold):
     best = 0.0
+    over = np.empty(3)
     for j in range(3):
         if not found[j]:
             continue
-        part = fraction_below(
-            _length(v, 0, p, j) - threshold, _length(v, 1, p, j) - threshold, _length(v, 2, p, j) - threshold
-        )
-        best = max(best, part)
+        for i in range(3):
+            x, y, z = v[i, 0] - p[j, 0], v[i, 1] - p[j, 1], v[i, 2] - p[j, 2]
+            over[i] = np.sqrt(x**2 + y**2 + z**2) - threshold
+        best = max(best, fraction_below(over[0], over[1], over[2]))
     return best
 
 
-@kernel
+@inner
 def _circle2(a, b, c):
     """Squared radius of the smallest circle that contains a triangle of these edge lengths."""
     a2, b2, c2 = a * a, b * b, c * c

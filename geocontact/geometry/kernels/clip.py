@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 
 
 @kernel
@@ -34,23 +34,30 @@ def areas_below(faces, value, area, thresholds):
 
     faces (k, 3) index value (n,); area (k,).
     """
-    found = np.zeros(len(thresholds))
-    whole = np.zeros(len(thresholds) + 1)  # area of triangles that lie below from this threshold on
-    last = thresholds[-1]
+    count = len(thresholds)
+    found = np.zeros(count)
+    whole = np.zeros(count + 1)  # area of triangles that lie below from this threshold on
+    last = thresholds[count - 1]
     for f in range(len(faces)):
         a, b, c = value[faces[f, 0]], value[faces[f, 1]], value[faces[f, 2]]
         low, high = min(a, min(b, c)), max(a, max(b, c))
         if low > last:
             continue
-        t = np.searchsorted(thresholds, low)
-        while t < len(thresholds) and thresholds[t] < high:
+        t = 0
+        while t < count and thresholds[t] < low:
+            t += 1
+        while t < count and thresholds[t] < high:
             found[t] += area[f] * fraction_below(a - thresholds[t], b - thresholds[t], c - thresholds[t])
             t += 1
         whole[t] += area[f]
-    return found + np.cumsum(whole)[:-1]
+    below = 0.0
+    for t in range(count):
+        below += whole[t]
+        found[t] += below
+    return found
 
 
-@kernel
+@inner
 def _cut(polygon, count, f, out):
     """Part of a convex polygon in barycentric coordinates where b @ f <= 0; returns its corner count."""
     kept = 0
@@ -60,7 +67,8 @@ def _cut(polygon, count, f, out):
         fa = a[0] * f[0] + a[1] * f[1] + a[2] * f[2]
         fb = b[0] * f[0] + b[1] * f[1] + b[2] * f[2]
         if fa <= 0.0:
-            out[kept] = a
+            for k in range(3):
+                out[kept, k] = a[k]
             kept += 1
         if (fa <= 0.0) != (fb <= 0.0):
             t = fa / (fa - fb)
@@ -70,11 +78,12 @@ def _cut(polygon, count, f, out):
     return kept
 
 
-@kernel
+@inner
 def _moments(polygon, count, out):
     """Share of the triangle's area inside the polygon and the barycentric first moments (3,) of that share."""
     share = 0.0
-    out[:] = 0.0
+    for k in range(3):
+        out[k] = 0.0
     for i in range(1, count - 1):
         a, b, c = polygon[0], polygon[i], polygon[i + 1]
         part = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -95,7 +104,9 @@ def clipped_parts(faces, points, value, across, area):
     part = np.zeros(k)
     negative = np.zeros(k)
     moment = np.zeros((k, 3))
-    whole = np.eye(3)
+    whole = np.zeros((3, 3))
+    for j in range(3):
+        whole[j, j] = 1.0
     first = np.empty((4, 3))
     second = np.empty((5, 3))
     weight = np.empty(3)
@@ -105,7 +116,7 @@ def clipped_parts(faces, points, value, across, area):
         for j in range(3):
             f[j] = value[faces[i, j]]
             g[j] = across[faces[i, j]]
-        count = _cut(whole, 3, f, first)
+        count = _cut(whole, len(whole), f, first)
         if count < 3:
             continue
         share = _moments(first, count, weight)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
-from geocontact.geometry.kernels.rise import free_above, plane_of, rise_of, size_of
+from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.rise import free_above, height_within, plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import offset
 from geocontact.geometry.kernels.triangle import closest_point
 
@@ -53,7 +53,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
             cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
             radius = reach + size_of(leaves, place[s])
             if np.isnan(above[s]):
-                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True)
+                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, use)
             low = max(low, _over_plane(cx, cy, cz, nx, ny, nz, above[s], radius, v))
         if low < bar:
             keep[count] = f
@@ -62,14 +62,16 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     return keep[:count].copy(), floors[:count].copy()
 
 
-@kernel
+@inner
 def _over_plane_nearby(tree, place, margin, v, a, b, c):
     """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle.
 
     a, b, c are the signed distances of its corners: one that is outside and above says that what is free is outside.
     """
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
-    mx, my, mz = _middle(v, 0), _middle(v, 1), _middle(v, 2)
+    mx = (v[0, 0] + v[1, 0] + v[2, 0]) / 3.0
+    my = (v[0, 1] + v[1, 1] + v[2, 1]) / 3.0
+    mz = (v[0, 2] + v[1, 2] + v[2, 2]) / 3.0
     h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
     cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
     radius = 0.0
@@ -78,7 +80,7 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c):
         h = dx * nx + dy * ny + dz * nz
         radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
     radius += margin
-    rise = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, False)
+    rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius)
     low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
     if low == -np.inf:
         return low
@@ -89,12 +91,7 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c):
     return low if free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius) else -np.inf
 
 
-@kernel
-def _middle(v, axis):
-    return (v[0, axis] + v[1, axis] + v[2, axis]) / 3.0
-
-
-@kernel
+@inner
 def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     """Bound of the signed distance over a triangle v (3, 3) by the rise over a plane; -inf where it does not hold."""
     if rise == np.inf:
@@ -109,7 +106,7 @@ def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     return low
 
 
-@kernel
+@inner
 def _to_triangle(leaves, place, v, corner):
     """Distance of one of the corners v (3, 3) to the triangle at a place."""
     x, y, z = v[corner, 0], v[corner, 1], v[corner, 2]
@@ -117,7 +114,7 @@ def _to_triangle(leaves, place, v, corner):
     return np.sqrt((x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2)
 
 
-@kernel
+@inner
 def _farthest(far):
     """Bound of the distance over a triangle by those of its corners to three faces: far (face, corner).
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import nearest, offset, scratch
 from geocontact.geometry.kernels.triangle import LEAF, U
@@ -78,7 +78,7 @@ def near_edges(tree, place, above, below, reach, signed, ends, length, points, d
     return keep[:count].copy(), floors[:count].copy()
 
 
-@kernel
+@inner
 def _clear_of(tree, place, s, above, below, radius, signed, points, i, j):
     """Bound of the distance between points i and j by the face at a place; 0 where there is none."""
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
@@ -115,8 +115,9 @@ def edge_gap(tree, start, end, floors, best):
     for q in range(len(start)):
         if floors[q] >= best or best == 0.0:
             break
-        pieces[0, :3] = start[q]
-        pieces[0, 3:] = end[q]
+        for k in range(3):
+            pieces[0, k] = start[q, k]
+            pieces[0, 3 + k] = end[q, k]
         level[0] = 0
         waiting = 1
         while waiting > 0 and best > 0.0:
@@ -133,10 +134,11 @@ def edge_gap(tree, start, end, floors, best):
             best = min(best, d)
             o = offset(found)
             if depth < HALVINGS and half > d + 2.0 * leaves[o + U(12 * LEAF)]:
-                pieces[waiting + 1] = piece
-                for k, middle in enumerate((x, y, z)):
-                    pieces[waiting, 3 + k] = middle
-                    pieces[waiting + 1, k] = middle
+                for k in range(3):
+                    pieces[waiting + 1, 3 + k] = piece[3 + k]
+                pieces[waiting, 3] = pieces[waiting + 1, 0] = x
+                pieces[waiting, 4] = pieces[waiting + 1, 1] = y
+                pieces[waiting, 5] = pieces[waiting + 1, 2] = z
                 level[waiting] = depth + 1
                 level[waiting + 1] = depth + 1
                 waiting += 2
@@ -145,7 +147,7 @@ def edge_gap(tree, start, end, floors, best):
     return best
 
 
-@kernel
+@inner
 def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, square, fan):
     """The less of `best` and the least distance of a piece, given its middle and half length, to the faces."""
     nodes[0] = 0
@@ -171,7 +173,7 @@ def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, sq
     return best
 
 
-@kernel
+@inner
 def _segment_to_triangle(leaves, o, piece):
     """Distance of a segment to the three edges of the triangle at offset o, 0 where it passes through its inside.
 
@@ -191,7 +193,7 @@ def _segment_to_triangle(leaves, o, piece):
     return np.sqrt(d2)
 
 
-@kernel
+@inner
 def _local(leaves, o, x, y, z):
     """A point in the frame of the triangle at offset o."""
     dx, dy, dz = x - leaves[o], y - leaves[o + U(LEAF)], z - leaves[o + U(2 * LEAF)]
@@ -202,7 +204,7 @@ def _local(leaves, o, x, y, z):
     )
 
 
-@kernel
+@inner
 def _segments2(p, q, ax, ay, bx, by):
     """Squared distance of segment pq to the segment from (ax, ay, 0) to (bx, by, 0).
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 
 FLAT = 1e-13  # height of a triangle over its longest edge below which a line crosses it without moving
 CROSSINGS = 100000  # edges that one line may cross
@@ -120,12 +120,12 @@ def joined(vertices, faces, neighbour, face, point, goal_face, goal):
     return length, leaving, arriving, left
 
 
-@kernel
+@inner
 def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel
+@inner
 def _normal(vertices, faces, f):
     a = vertices[faces[f, 0]]
     n = np.cross(vertices[faces[f, 1]] - a, vertices[faces[f, 2]] - a)
@@ -135,7 +135,7 @@ def _normal(vertices, faces, f):
     return n
 
 
-@kernel
+@inner
 def _into_plane(d, normal):
     """Turn d into the plane and make it a unit vector, in place; what stands on the plane stays as it is."""
     d -= _dot(d, normal) * normal
@@ -144,7 +144,7 @@ def _into_plane(d, normal):
         d /= size
 
 
-@kernel
+@inner
 def _laid_into(vertices, faces, neighbour, f, goal, d):
     """Turn d from face f into the plane of the face `goal`, in place: about their common edge, else straight down."""
     for k in range(3):
@@ -157,7 +157,7 @@ def _laid_into(vertices, faces, neighbour, f, goal, d):
     _into_plane(d, _normal(vertices, faces, goal))
 
 
-@kernel
+@inner
 def _walk(vertices, faces, neighbour, f, entry, p, d, length):
     """Go on along d by `length` from p on face f, which was entered by its edge `entry` (-1: from inside).
 
@@ -190,7 +190,7 @@ def _walk(vertices, faces, neighbour, f, entry, p, d, length):
     return -1, -1
 
 
-@kernel
+@inner
 def _way_out(vertices, faces, f, entry, p, d):
     """Length to the first edge that the line leaves through, and the edge; never the one it came in by."""
     normal = _normal(vertices, faces, f)
@@ -208,7 +208,7 @@ def _way_out(vertices, faces, f, entry, p, d):
     return best, found
 
 
-@kernel
+@inner
 def _across(vertices, faces, neighbour, f, k, p):
     """The face with area across edge k of f, and its edge there; faces without area are crossed at the point p."""
     for _ in range(CROSSINGS):
@@ -224,7 +224,7 @@ def _across(vertices, faces, neighbour, f, k, p):
     return -1, -1
 
 
-@kernel
+@inner
 def _height(vertices, faces, f):
     """Height of a face over its longest edge, as a share of that edge."""
     longest = 0.0
@@ -236,7 +236,7 @@ def _height(vertices, faces, f):
     return np.sqrt(_dot(n, n)) / longest if longest > 0.0 else 0.0
 
 
-@kernel
+@inner
 def _other_side(vertices, faces, f, entry, p):
     """Edge by which a line that entered a face without area at p leaves it: one on which p lies, not the entry."""
     found, least = -1, np.inf
@@ -251,7 +251,7 @@ def _other_side(vertices, faces, f, entry, p):
     return found
 
 
-@kernel
+@inner
 def _inwards(vertices, faces, f, k, along, side):
     """Unit vector in face f across its edge k, pointing into the face; `along` is the edge's unit vector."""
     side[:] = vertices[faces[f, (k + 2) % 3]] - vertices[faces[f, k]]

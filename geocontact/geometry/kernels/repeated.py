@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.cells import BEYOND, OPEN, WITHIN, cell_at, verdict
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import LEAF, U, closest_point
 
@@ -38,7 +38,7 @@ def face_chunks(points, faces, area, start):
     return out
 
 
-@kernel
+@inner
 def _turned(r, t, x, y, z):
     return (
         r[0, 0] * x + r[0, 1] * y + r[0, 2] * z + t[0],
@@ -47,7 +47,7 @@ def _turned(r, t, x, y, z):
     )
 
 
-@kernel
+@inner
 def _whole(low, count, coarse, n, state, block, first, near, side, x, y, z, radius, threshold):
     """Verdict over all points within `radius` of a point."""
     number, _ = cell_at(low, count, coarse, n, state, block, first, x, y, z)
@@ -64,7 +64,7 @@ def _whole(low, count, coarse, n, state, block, first, near, side, x, y, z, radi
     return OPEN
 
 
-@kernel
+@inner
 def _slopes(f, odd, out):
     """Share of a triangle where f <= 0 (one or two corners are), its derivatives to the corner values in `out`."""
     i, j, k = odd, (odd + 1) % 3, (odd + 2) % 3
@@ -142,7 +142,7 @@ def areas_at(tree, cells, points, faces, area, start, chunks, threshold, signed,
     return found, slope, doubt
 
 
-@kernel
+@inner
 def _cut(corners, area, threshold, value, where, unit, within, f, share, slope):
     """Area of a triangle that is cut, `within` corners of it inside; its derivative is added to `slope` (6,)."""
     odd = 0
@@ -156,7 +156,7 @@ def _cut(corners, area, threshold, value, where, unit, within, f, share, slope):
     return part
 
 
-@kernel
+@inner
 def _pull(slope, by, at, unit):
     """Add `by` times what a distance changes by with a shift (its direction) and a turn (position x direction)."""
     for i in range(3):
@@ -165,7 +165,7 @@ def _pull(slope, by, at, unit):
         slope[3 + i] += by * (at[j] * unit[k] - at[k] * unit[j])
 
 
-@kernel
+@inner
 def _measure(
     boxes, child, leaves, slots, fill, normal, row, places, signed, v, where, cell, kind, value, unit, nodes, keys,
     square, fan

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import LEAF, U
 from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_distances
@@ -51,10 +51,18 @@ def size_of(leaves, place):
 
 @kernel
 def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
+    """What `height_within` gives; when `signed`, infinite as well where what is higher is not outside."""
+    height = height_within(tree, cx, cy, cz, nx, ny, nz, radius)
+    if signed and height < np.inf and not free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
+        return np.inf
+    return height
+
+
+@inner
+def height_within(tree, cx, cy, cz, nx, ny, nz, radius):
     """Height over the plane through c across the unit vector n that the surface reaches within `radius` of c.
 
-    Infinite where it reaches as far as the radius, where n is zero and, when `signed`, where what is higher is not
-    outside.
+    Infinite where it reaches as far as the radius, and where n is zero.
     """
     if nx == 0.0 and ny == 0.0 and nz == 0.0:
         return np.inf
@@ -80,14 +88,10 @@ def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
             if square[j] <= r2:
                 height = max(height, _highest(leaves, leaf * LEAF + j, cx, cy, cz, nx, ny, nz, radius))
     height += ROUND * radius
-    if height >= radius:
-        return np.inf
-    if signed and not free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
-        return np.inf
-    return height
+    return np.inf if height >= radius else height
 
 
-@kernel
+@inner
 def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
     """Whether what is higher than `height` within the radius, being free of the surface, is outside."""
     nodes, keys, square, fan = scratch()
@@ -98,7 +102,7 @@ def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
     return side > 0
 
 
-@kernel
+@inner
 def _highest(leaves, place, cx, cy, cz, nx, ny, nz, radius):
     """Bound of the height over the plane through c across n that a triangle has within `radius` of c.
 

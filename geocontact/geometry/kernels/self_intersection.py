@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.binary import DEPTH
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 
 SIDES = 3
 ROUNDING = 1e-12  # share of the cube of the size below which a volume is none
@@ -28,7 +28,7 @@ def pierced(tree, corner, faces):
     return marked
 
 
-@kernel
+@inner
 def _pierce(tree, corner, faces, f, k, l, nodes, marked):
     p = corner[f, k]
     q = corner[f, l]
@@ -58,7 +58,7 @@ def _pierce(tree, corner, faces, f, k, l, nodes, marked):
                 marked[g] = True
 
 
-@kernel
+@inner
 def _meets(box, o, lo, hi):
     for k in range(3):
         if box[o + k] > hi[k] or box[o + k + 3] < lo[k]:
@@ -66,7 +66,7 @@ def _meets(box, o, lo, hi):
     return True
 
 
-@kernel
+@inner
 def _share(face, i, j):
     for k in range(SIDES):
         if face[k] == i or face[k] == j:
@@ -74,7 +74,7 @@ def _share(face, i, j):
     return False
 
 
-@kernel
+@inner
 def _volume(a, b, c, d):
     ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
@@ -82,13 +82,13 @@ def _volume(a, b, c, d):
     return ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx)
 
 
-@kernel
+@inner
 def _extent(a, b):
     """Largest difference of two points along an axis."""
     return max(abs(b[0] - a[0]), max(abs(b[1] - a[1]), abs(b[2] - a[2])))
 
 
-@kernel
+@inner
 def _crosses(p, q, a, b, c):
     """Whether segment pq passes through triangle abc: its ends clearly on different sides, rounding apart."""
     size = max(max(_extent(p, q), _extent(a, b)), max(_extent(a, c), _extent(p, a)))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner
 from geocontact.geometry.kernels.triangle import LEAF, U, closest_point
 from geocontact.geometry.kernels.wide import FAN, ROWS, STACK, box_distances, leaf_distances
 
@@ -34,13 +34,13 @@ class BoxTree(NamedTuple):
     row: np.ndarray
 
 
-@kernel
+@inner
 def scratch():
     """Working memory of one thread's queries: nodes and keys that wait, squared distances, and the fan."""
     return np.empty(STACK, np.int64), np.empty(STACK), np.empty(max(FAN, LEAF)), FAN
 
 
-@kernel
+@inner
 def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fan):
     """Squared distance and place of the nearest triangle; place -1 when none is nearer than sqrt(limit2).
 
@@ -81,19 +81,19 @@ def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fa
     return best, place
 
 
-@kernel
+@inner
 def in_box(box, x, y, z):
     """Whether a point lies inside a box (6,)."""
     return box[0] < x < box[3] and box[1] < y < box[4] and box[2] < z < box[5]
 
 
-@kernel
+@inner
 def offset(place):
     """Where the numbers of the triangle at a place begin."""
     return U(place // LEAF) * U(ROWS * LEAF) + U(place % LEAF)
 
 
-@kernel
+@inner
 def side_of(leaves, slots, normal, row, place, px, py, pz):
     """Closest point on a triangle and the side the point is on: 1 outside, -1 inside, 0 where normals cannot tell.
 

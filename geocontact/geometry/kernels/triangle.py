@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 
 U = np.uint64
 LEAF = 32  # triangles in a leaf of the wide tree
@@ -27,7 +27,7 @@ def triangle_frames(vertices, faces):
     return records
 
 
-@kernel
+@inner
 def _frame(vertices, face, out):
     shift = 0
     longest = -1.0
@@ -84,12 +84,12 @@ def _frame(vertices, face, out):
     out[15] = shift
 
 
-@kernel
+@inner
 def _length(v):
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
-@kernel
+@inner
 def closest_point(r, o, px, py, pz):
     """Closest point of a triangle, the feature it lies on and the height over the triangle's plane.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.binary import DEPTH
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import inner, kernel
 from geocontact.geometry.kernels.triangle import LEAF, U
 
 FAN = 16  # children of a node
@@ -27,59 +27,69 @@ def widen(binary, records, orientation):
     orientation (m,): 1 where n points outside, -1 where it points inside, 0 where it cannot tell.
     """
     n = len(binary.first)
-    box, start, size = _extents(binary)
-    boxes = np.empty((n, 6, FAN))
-    child = np.full((n, FAN), -1)
-    leaves = np.empty((n, ROWS, LEAF))
-    slots = np.empty((n, LEAF), np.int64)
+    box, start, size = _extents(binary.root, binary.pairs, binary.first, binary.size)
+    boxes = np.empty(n * 6 * FAN)
+    child = np.empty(n * FAN, np.int64)
+    leaves = np.empty(n * ROWS * LEAF)
+    slots = np.empty(n * LEAF, np.int64)
     fill = np.empty(n, np.int64)
-    todo = np.zeros(n, np.int64)
+    todo = np.empty(n, np.int64)
     fan = np.empty(FAN, np.int64)
-    used, made, leaf = 0, 1, 0
+    todo[0] = 0
+    used, made, leaf = 0, 1, todo[0]
     while used < made:
-        width = _gather(binary, box, size, todo[used], fan)
+        width = _gather(binary.first, box, size, todo[used], fan)
         for i in range(FAN):
+            child[used * FAN + i] = -1
             for k in range(6):
-                boxes[used, k, i] = box[fan[i], k] if i < width else (np.inf if k < 3 else -np.inf)
+                boxes[(used * 6 + k) * FAN + i] = box[fan[i], k] if i < width else (np.inf if k < 3 else -np.inf)
             if i >= width:
                 continue
             node = fan[i]
             if size[node] > LEAF:
-                child[used, i] = made
+                child[used * FAN + i] = made
                 todo[made] = node
                 made += 1
             else:
-                child[used, i] = -2 - leaf
-                _fill(records, orientation, start[node], size[node], leaves[leaf], slots[leaf])
+                child[used * FAN + i] = -2 - leaf
+                _fill(records, orientation, start[node], size[node], leaf, leaves, slots)
                 fill[leaf] = (size[node] + VECTOR - 1) // VECTOR * VECTOR
                 leaf += 1
         used += 1
-    return boxes[:used].ravel(), child[:used].ravel(), leaves[:leaf].ravel(), slots[:leaf].ravel(), fill[:leaf].copy()
+    return (
+        boxes[: used * 6 * FAN].copy(),
+        child[: used * FAN].copy(),
+        leaves[: leaf * ROWS * LEAF].copy(),
+        slots[: leaf * LEAF].copy(),
+        fill[:leaf].copy(),
+    )
 
 
-@kernel
-def _extents(binary):
+@inner
+def _extents(root, pairs, firsts, sizes):
     """Box, first slot and number of slots below each node of the binary tree."""
-    n = len(binary.first)
+    n = len(firsts)
     box = np.empty((n, 6))
     start = np.empty(n, np.int64)
     size = np.empty(n, np.int64)
-    box[0] = binary.root
+    for k in range(6):
+        box[0, k] = root[k]
     for node in range(n - 1, -1, -1):  # children come after their parents
-        first = binary.first[node]
-        if binary.size[node] > 0:
+        first = firsts[node]
+        if sizes[node] > 0:
             start[node] = first
-            size[node] = binary.size[node]
+            size[node] = sizes[node]
             continue
-        box[first] = binary.pairs[12 * node : 12 * node + 6]
-        box[first + 1] = binary.pairs[12 * node + 6 : 12 * node + 12]
+        for k in range(6):
+            box[first, k] = pairs[12 * node + k]
+            box[first + 1, k] = pairs[12 * node + 6 + k]
         start[node] = min(start[first], start[first + 1])
         size[node] = size[first] + size[first + 1]
     return box, start, size
 
 
-@kernel
-def _gather(binary, box, size, node, fan):
+@inner
+def _gather(firsts, box, size, node, fan):
     """Up to FAN nodes that together make up `node`: the one with the largest surface is opened again and again."""
     fan[0] = node
     width = 1
@@ -87,35 +97,41 @@ def _gather(binary, box, size, node, fan):
         largest = -1.0
         place = -1
         for i in range(width):
-            e = box[fan[i], 3:] - box[fan[i], :3]
-            surface = e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
+            x, y, z = (
+                box[fan[i], 3] - box[fan[i], 0],
+                box[fan[i], 4] - box[fan[i], 1],
+                box[fan[i], 5] - box[fan[i], 2],
+            )
+            surface = x * y + y * z + z * x
             if size[fan[i]] > LEAF and surface > largest:
                 largest = surface
                 place = i
         if place < 0:
             break
-        first = binary.first[fan[place]]
+        first = firsts[fan[place]]
         fan[place] = first
         fan[width] = first + 1
         width += 1
     return width
 
 
-@kernel
-def _fill(records, orientation, start, size, leaf, slots):
+@inner
+def _fill(records, orientation, start, size, leaf, leaves, slots):
     for j in range(LEAF):
         slot = start + min(j, size - 1)
-        slots[j] = slot
-        r = records[slot]
-        leaf[:15, j] = r[:15]
-        ac = r[13] * r[13] + r[14] * r[14]
-        bc = (r[13] - r[12]) * (r[13] - r[12]) + r[14] * r[14]
-        leaf[15, j] = 1.0 / ac if ac > 0.0 else 0.0
-        leaf[16, j] = 1.0 / bc if bc > 0.0 else 0.0
-        leaf[17, j] = orientation[slot]
+        slots[leaf * LEAF + j] = slot
+        o = leaf * ROWS * LEAF + j
+        for k in range(15):
+            leaves[o + k * LEAF] = records[slot, k]
+        length, x, y = records[slot, 12], records[slot, 13], records[slot, 14]
+        ac = x * x + y * y
+        bc = (x - length) * (x - length) + y * y
+        leaves[o + 15 * LEAF] = 1.0 / ac if ac > 0.0 else 0.0
+        leaves[o + 16 * LEAF] = 1.0 / bc if bc > 0.0 else 0.0
+        leaves[o + 17 * LEAF] = orientation[slot]
 
 
-@kernel
+@inner
 def box_distances(boxes, o, x, y, z, out, n):
     """Squared distances of a point to the n = FAN boxes at offset o."""
     for j in range(n):
@@ -126,7 +142,7 @@ def box_distances(boxes, o, x, y, z, out, n):
         out[U(j)] = dx * dx + dy * dy + dz * dz
 
 
-@kernel
+@inner
 def leaf_distances(t, o, px, py, pz, out, n):
     """Squared distances of a point to the first n triangles at offset o; the cases of `triangle`, without branches.
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.interpolate import PchipInterpolator
 
 from geocontact.data.frame_blocks import blocks, release, room
 from geocontact.identify.signals.cycles import Span
@@ -92,6 +91,8 @@ def filled_and_smoothed(
         Time between two samples of a column that is bridged [s]. ValueError names the first gap beyond it, and a
         column that begins late or ends early.
     """
+    from scipy.interpolate import PchipInterpolator
+
     even, step = even_times(time)
     found = np.empty((len(even), values.shape[1]))
     for k, column in enumerate(values.T):

@@ -11,8 +11,8 @@ from math import cos, hypot, pi, sin, sqrt
 
 import numpy as np
 import pytest
+import scipy.optimize
 
-import geocontact.geometry.fit.solver as solver
 from geocontact.geometry.fit.circle import fit_circle
 from geocontact.geometry.fit.cylinder import fit_cylinder
 from geocontact.geometry.fit.found import ShapeFit
@@ -150,7 +150,7 @@ def test_a_circle_by_hand() -> None:
 def test_what_is_searched_is_the_sum_of_the_formula(kind: str, robust: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Half c² Σ ρ((r/c)²) as SciPy adds it up, in the search that ends: ρ(z) = z, log(1 + z), (1 - (1 - z)³)/3."""
     ended: list[tuple[str, float, float, np.ndarray]] = []
-    real = solver.least_squares
+    real = scipy.optimize.least_squares
 
     def seen(*arguments: object, **options: object) -> object:
         found = real(*arguments, **options)
@@ -158,7 +158,7 @@ def test_what_is_searched_is_the_sum_of_the_formula(kind: str, robust: bool, mon
         ended.append((str(name), float(options["f_scale"]), float(found.cost), found.fun))  # type: ignore[arg-type]
         return found
 
-    monkeypatch.setattr(solver, "least_squares", seen)
+    monkeypatch.setattr(scipy.optimize, "least_squares", seen)
     FIT[kind](np.array(cloud(kind)), robust=robust)
     assert {name for name, *_ in ended} == ({"cauchy", "biweight"} if robust else {"linear"})
     for name, c, cost, off in ended:
