@@ -79,8 +79,8 @@ def standing_trials(
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file, device))
-    name_odd_segments(study.person, file)
-    confront_segments(subject, file)
+    name_odd_segments(study.person, study.height, file)
+    confront_segments(subject, file, study.person)
     size = TrialInputs(mass=study.mass, height=study.height, age=study.person.age, mass_option=f"mass in {file}")
     check_trial(size)
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
