@@ -14,8 +14,8 @@ from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.recordings.described_person import OVER_HIPS
 from geocontact.io.recordings.standing_study import StandingPerson, StandingStudy, StandingTrialFiles
-from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import JOINTS, Subject
+from geocontact.io.text.tables import listed, read_table
+from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
 from geocontact.standing_up.person_segments import LEG, PersonSegment, from_proximal, segments_of, to_proximal
 from geocontact.standing_up.worn_device import FRICTION_NAMES, WornDevice
@@ -132,7 +132,7 @@ def joint_torques(
     if files.torques is None:
         return None
     role, at = f"{files.name} torques", time[used]
-    person = columns_at(files.torques, JOINTS, role, at)
+    person = torques_at(files.torques, JOINTS, role, at)
     if not angles.shape[1]:
         return person
     there = [name for name in EXO_JOINTS if name in read_table(files.torques).channels]
@@ -173,6 +173,16 @@ def _doubt_mode(files: StandingTrialFiles, torque: Table, noise: float) -> None:
         reserve(f"{files.name}: mode {files.mode}, and torques of {size:.1f} N m (root mean square): it helps")
     if files.mode == "active" and size < noise:
         reserve(f"{files.name}: mode active, and torques of {size:.2g} N m (root mean square): it does not help")
+
+
+def torques_at(file: Path, names: Sequence[str], role: str, time: Times) -> Float[np.ndarray, "t c"]:
+    """Torques at the times of the trial [N m]; InputError for a file of coordinates, whose columns have these names."""
+    table = read_table(file)
+    placed = [name for name in COORDINATES[:3] if name in table.channels]
+    if placed:
+        what = f"has columns {listed(tuple(placed))}: it holds coordinates, not torques"
+        raise InputError(file, "", what, "give torques of the joints in N m, such as those of inverse dynamics")
+    return columns_at(file, names, role, time)
 
 
 def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Float[np.ndarray, "t c"]:
