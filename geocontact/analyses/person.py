@@ -42,7 +42,7 @@ def doubt_value(where: str, key: str, value: float, usual: float, length: float,
     if key in OWN:
         share, (least, most), of = value / usual, OWN[key], f"times that of {beside}"
     else:
-        share, (least, most), of = abs(value) / length, (0.0, WITHIN[key]), "times its length"
+        share, (least, most), of = value / length, (0.0, WITHIN[key]), "times its length"
     if not least <= share <= most:
         what = f"{where}: its {key} is {share:.2g} {of}"
         reserve(f"{what}: is it in its unit, of one side, and of this person?", cause=True)

@@ -162,9 +162,15 @@ class Assembly:
         return bool((self.residuals(total) <= FACETED * self.borne(total)).all())
 
     def loose(self, total: BodiesEnergy) -> tuple[str, ...]:
-        """Coordinates that nothing holds, each body's stiffness measured by what that body bears."""
+        """Coordinates that nothing holds, each body's stiffness measured by what that body bears.
+
+        None where no force acts and nothing presses: the bodies stay where they are.
+        """
         borne = self.borne(total)
-        size = np.repeat(np.where(borne > 0.0, borne, max(self.load, float(borne.max()))), 6) ** -0.5
+        most = max(self.load, float(borne.max()))
+        if most == 0.0:
+            return ()
+        size = np.repeat(np.where(borne > 0.0, borne, most), 6) ** -0.5
         return not_held(total.stiffness * np.outer(size, size), self.free, 1.0, self.coordinates)
 
     def placed(self, values: Float[np.ndarray, " n"]) -> dict[str, RigidTransform]:

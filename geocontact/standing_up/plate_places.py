@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.multibody.force_plate import HEAVY, LOADED, ForcePlate
+from geocontact.data.multibody.force_plate import ForcePlate
 
 BEHIND, AHEAD = 0.06, 0.20
 """Ends of a foot behind and ahead of the ankle [m]; feet are 0.26 m long, as for a stance."""
@@ -95,22 +95,20 @@ def plate_places(plates: Sequence[ForcePlate], body: BodySites) -> tuple[PlatePl
 
 
 def _place(plate: ForcePlate, body: BodySites) -> PlatePlace:
-    centre, load = plate.centre_of_pressure(), np.nan_to_num(plate.wrench.force @ plate.normal)
-    heavy = (load >= max(LOADED, HEAVY * float(load.max(initial=0.0)))) & np.isfinite(centre).all(axis=1)
-    heavy &= (plate.time >= body.time[0]) & (plate.time <= body.time[-1])
+    centre, heavy = plate.centre_of_pressure(), plate.heavy(body.time[0], body.time[-1])
     if not heavy.any():
         return PlatePlace(plate.name, "no load", float("nan"), float("nan"), float("nan"))
     at, seen = plate.time[heavy], centre[heavy][:, [0, 2]]
     lines = {side: _foot(body, side, at) for side in ("right", "left")}
-    off = {side: float(np.median(_from_line(seen, *line))) for side, line in lines.items()}
+    off = {side: float(np.median(from_line(seen, *line))) for side, line in lines.items()}
     between = [
-        _from_line(seen, *((1.0 - share) * lines["right"][end] + share * lines["left"][end] for end in (0, 1)))
+        from_line(seen, *((1.0 - share) * lines["right"][end] + share * lines["left"][end] for end in (0, 1)))
         for share in np.linspace(0.0, 1.0, 21)
     ]
     both = float(np.median(np.min(between, axis=0)))
     hips, knees = _seen_at(body, body.hips, at), _seen_at(body, body.knees, at)
     long = np.fmax(np.linalg.norm(knees - hips, axis=1, keepdims=True), 1e-6)
-    seat = float(np.median(_from_line(seen, hips - REARWARD * (knees - hips) / long, knees)))
+    seat = float(np.median(from_line(seen, hips - REARWARD * (knees - hips) / long, knees)))
     nearest: Side = "right" if off["right"] <= off["left"] else "left"
     if off[nearest] <= BESIDE and off[nearest] < 0.5 * max(off.values()):
         return PlatePlace(plate.name, "right foot" if nearest == "right" else "left foot", off[nearest], both, seat)
@@ -132,8 +130,8 @@ def _foot(body: BodySites, side: str, at: Float[np.ndarray, " s"]) -> tuple[Floa
     return _seen_at(body, ankle - BEHIND * ahead, at), _seen_at(body, ankle + AHEAD * ahead, at)
 
 
-def _from_line(
-    seen: Float[np.ndarray, "s 2"], begin: Float[np.ndarray, "s 2"], end: Float[np.ndarray, "s 2"]
+def from_line(
+    seen: Float[np.ndarray, "s d"], begin: Float[np.ndarray, "s d"], end: Float[np.ndarray, "s d"]
 ) -> Float[np.ndarray, " s"]:
     """Distance from the line between two points."""
     along, out = end - begin, seen - begin

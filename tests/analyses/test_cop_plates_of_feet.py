@@ -14,6 +14,8 @@ import pytest
 
 import geocontact as gc
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.multibody.force_plate import sum_of
+from geocontact.data.wrench import Wrench
 from geocontact.io.opensim.storage_writer import write_storage
 from tests.analyses.test_cop_feet import FEET, TIME, coordinates, feet_by_hand, model
 
@@ -77,10 +79,51 @@ def test_plates_in_a_row_under_one_foot_are_added_up(tmp_path: Path) -> None:
     np.testing.assert_allclose(rows["plate_cop_x [m]"], centre[:, 0], atol=1e-8)
 
 
+def test_lost_samples_of_one_plate_are_no_load(tmp_path: Path) -> None:
+    """Two plates of a foot, of one of which a fifth of the samples are missing: there is no difference there."""
+    force, centre = loads()["r"]
+    part = force / 3.0
+    gone = slice(len(TIME) // 4, len(TIME) // 4 + len(TIME) // 5)
+    part[gone] = np.nan
+    under = {"n0_force": (part, centre), "n1_force": loads()["l"], "n2_force": (force / 1.5, centre)}
+    result = gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, under))
+    rows = result.tables()["comparison"].query("foot == 'foot_r'")
+    assert rows["plate_force_y [N]"].isna().to_numpy()[gone].all()
+    known = rows["plate_force_y [N]"].notna().to_numpy()
+    assert known.sum() == len(TIME) - len(TIME) // 5
+    np.testing.assert_allclose(rows["plate_force_y [N]"][known], force[known, 1], rtol=1e-8)
+
+
+def test_the_sum_of_plates_is_unknown_where_one_is() -> None:
+    """A moment that is not a number counts as none where nobody stands on the plate."""
+    force = np.array([[0.0, 700.0, 0.0], [0.0, 0.0, 0.0], [np.nan, 1.0, 1.0], [0.0, 700.0, 0.0]])
+    moment = np.array([[1.0, 2.0, 3.0], [np.nan, np.nan, np.nan], [1.0, 1.0, 1.0], [np.nan, 0.0, 0.0]])
+    lost = Wrench(force, moment, np.zeros_like(force), "ground")
+    whole = Wrench(np.ones_like(force), np.ones_like(force), np.zeros_like(force), "ground")
+    total, about = sum_of([lost, whole])
+    np.testing.assert_array_equal(total, force + 1.0)
+    np.testing.assert_array_equal(about, [[2.0, 3.0, 4.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [np.nan, 1.0, 1.0]])
+
+
+def test_plates_of_turned_sign_say_so(tmp_path: Path) -> None:
+    """As with one foot; where the other foot has its plate, in a warning."""
+    (right, at), (left, beside) = loads().values()
+    turned = {"n0_force": (-right, at), "n1_force": (-left, beside)}
+    with pytest.raises(InputError, match=r"n0_force: its force along y.*that is the force on the plate.*turn the sign"):
+        gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, turned))
+    with pytest.warns(InputWarning, match=r"n1_force: its force along y.*that is the force on the plate"):
+        gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, turned | {"n0_force": (right, at)}))
+
+
 def test_plates_may_be_named_in_the_order_of_the_feet(tmp_path: Path) -> None:
     under = {"n0_force": loads()["l"], "n1_force": loads()["r"]}
     result = gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, under, plate="n1_force,n0_force"))
     np.testing.assert_allclose(result.tables()["comparison"]["difference_force_y [N]"], 5.0, atol=1e-5)
+    spaced = gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, under, plate="n1_force, n0_force"))
+    assert spaced.tables()["comparison"].equals(result.tables()["comparison"])
+    for twice in ("n0_force,n0_force", "n0_force,1"):
+        with pytest.raises(InputError, match=f"`plate`: {twice} names a plate twice; name each plate once"):
+            gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, under, plate=twice))
     with pytest.raises(InputError, match="names 1 plate for 2 feet; name one for each foot"):
         gc.centre_of_pressure(model(tmp_path, "hunt"), **asked(tmp_path, under, plate="n1_force"))
 

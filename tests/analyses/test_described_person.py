@@ -97,11 +97,52 @@ def test_a_segment_in_both_spellings_is_refused(tmp_path: Path) -> None:
         standing_trials(file, "study")
 
 
+def doubted(folder: Path, text: str) -> list[str]:
+    """Warnings about centres of a person."""
+    folder.mkdir(exist_ok=True)
+    said = warned(lambda: standing_trials(study_with(folder, f"[person]\n{text}"), "study"))
+    return [line.partition("[person] ")[2] for line in said if "its centre is" in line]
+
+
 def test_a_centre_from_the_other_joint_is_doubted(tmp_path: Path) -> None:
-    """The thigh's 0.64 of its length from the hip, which is its place from the knee."""
+    """The thigh's 0.64 of its length from the hip, which is its place from the knee; a shank's 0.55 likewise."""
     text = ONE_PERSON.replace('centre = { value = 15, unit = "cm" }', 'centre = { value = 24.3, unit = "cm" }')
-    said = warned(lambda: standing_trials(study_with(tmp_path, f"[person]\n{text}"), "study"))
-    assert [each for each in said if "[person] thigh: its centre is at 0.36 of its length, 0.64 in the table" in each]
+    said = doubted(tmp_path / "thigh", text)
+    assert said == ["thigh: its centre is at 0.64 of its length, 0.36 in the table: is it from the hip?"]
+    nearer = 'segments.shank = { length = { value = 41, unit = "cm" }, centre = { value = 22.7, unit = "cm" } }\n'
+    said = doubted(tmp_path / "shank", f'sex = "male"\n{nearer}')
+    assert said == [
+        (
+            "shank: its centre is at 0.55 of its length, 0.45 in the table from the knee and 0.55 from the ankle: "
+            "which end is it from?"
+        )
+    ]
+    assert not doubted(tmp_path / "near", f'sex = "male"\n{nearer.replace("22.7", "20")}')
+
+
+def test_a_centre_beyond_its_segment_is_doubted_as_it_is_written(tmp_path: Path) -> None:
+    """0.5 m from the hip in a thigh of 0.38 m: 1.32 of it, where the lower joint has -0.32."""
+    text = ONE_PERSON.replace('centre = { value = 15, unit = "cm" }', 'centre = { value = 50, unit = "cm" }')
+    assert doubted(tmp_path, text) == [
+        "thigh: its centre is 1.3 times its length: is it in its unit, of one side, and of this person?"
+    ]
+
+
+def test_the_former_spelling_says_where_centres_are_from_the_other_end(tmp_path: Path) -> None:
+    """By hand: 410 - 240 mm, 380 - 230 mm, and 37 + 0.2414 * 240 mm; what is copied unturned is doubted."""
+    file = study_with(tmp_path, f"[person]\n{FORMER}")
+    (line,) = [each for each in warned(lambda: standing_trials(file, "study")) if "former spelling" in each]
+    assert line.endswith(
+        "write segments.foot, segments.shank, segments.thigh; centres are then "
+        "foot 95 mm from the heel, in place of 37 from the ankle; shank 170 mm from the knee, in place of 240 from the "
+        "ankle; thigh 150 mm from the hip, in place of 230 from the knee"
+    )
+    assert not doubted(tmp_path / "former", FORMER)
+    copied = FORMER.replace("thigh =", "segments.thigh =").replace("shank =", "segments.shank =")
+    said = doubted(tmp_path / "copied", copied.replace("foot =", "segments.foot ="))
+    assert [line.partition(":")[0] for line in said] == ["thigh", "shank", "foot"]
+    turned = FORMER.replace("value = 24, unit", "value = 18, unit", 1)
+    assert [line[:5] for line in doubted(tmp_path / "turned", turned)] == ["shank"]
 
 
 @pytest.mark.parametrize("sex", ["female", "male"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -131,6 +132,71 @@ def test_sensors_of_a_planted_swing_give_its_angles(tmp_path: Path) -> None:
     assert any("no frame determines tx, ty, tz" in line for line in result.warnings)
     assert np.isnan(result.rms_mm) and "mm" not in result.summary["segments"]["pelvis_imu"]
     assert list(result.table("segments")) == ["time [s]", *(f"{body}_imu [deg]" for body in BODIES)]
+
+
+def gone(metres: float, backwards: bool = False) -> np.ndarray:
+    """Coordinates of somebody who goes along x while the leg swings a little."""
+    q = 0.2 * swing()
+    q[:, 3:6] = np.column_stack([np.linspace(0.0, -metres if backwards else metres, len(q)), *np.ones((2, len(q)))])
+    return q
+
+
+def test_a_wrong_heading_is_doubted_by_the_way(tmp_path: Path) -> None:
+    """Faced the wrong way a leg follows its segments, with other angles; nobody is doubted who stays where he is."""
+    pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    standing = write_theia(tmp_path / "static.c3d", segments(STANDING, PLACE))
+    given = {"model": LEG, "calibration": standing, "axes": LABORATORY}
+    for name, q, heading, off in (
+        ("forwards", gone(3.0), "pelvis=-z", False),
+        ("turned", gone(3.0), "pelvis=z", True),
+        ("backwards", gone(3.0, backwards=True), "pelvis=-z", True),
+        ("here", gone(0.4), "pelvis=z", False),
+    ):
+        result = gc.inverse_kinematics(write_theia(tmp_path / f"{name}.c3d", segments(q)), **given, heading=heading)
+        said = [line for line in result.warnings if "from where the person goes" in line]
+        assert [float(line.split()[3]) > 170.0 for line in said] == [True] * off, (name, result.warnings)
+        assert name == "here" or (result.fit_outcome == "fits") is not off
+        assert "angles count from the pose of the calibration, which is not tested" in result.sentences[-1]
+
+
+def test_a_first_frame_in_mid_swing_is_doubted(tmp_path: Path) -> None:
+    """Bodies that lie wrong in their segments: no pose of the leg has all of them."""
+    pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    whole = write_theia(tmp_path / "whole.c3d", segments(swing()))
+    result = gc.inverse_kinematics(whole, model=LEG, axes=LABORATORY)
+    assert result.fit_outcome != "fits"
+    assert result.summary["rms_deg"] > 5.0 and result.summary["max_deg"] > 15.0
+    assert [line for line in result.warnings if " degrees from the model at " in line]
+
+
+def test_the_frame_that_places_segments_is_named(tmp_path: Path) -> None:
+    """The foot is not there until frame 31; the recording's own number, also where `time` cuts it."""
+    time, shown = np.arange(60) / RATE, sensors(swing())
+    shown["foot_r_imu"][:30] = np.nan
+    walk = write_sensors(tmp_path / "walk.sto", time, shown)
+    for cut in (None, (0.1, 0.5)):
+        lines = gc.inverse_kinematics(walk, model=LEG, axes=LABORATORY, time=cut).warnings
+        assert [x for x in lines if x.startswith("frame 31 (0.3 s), the first that shows all segments, places")]
+        assert any("segments do not determine them: ankle" in line for line in lines)
+    standing = write_sensors(tmp_path / "standing.sto", time[:2], sensors(STANDING))
+    lines = gc.inverse_kinematics(walk, model=LEG, axes=LABORATORY, calibration=standing).warnings
+    assert [line for line in lines if line.startswith("the first frame of standing.sto places")]
+
+
+def test_origins_count_from_the_root_whatever_the_order_of_bodies(tmp_path: Path) -> None:
+    """A file that lists the pelvis last is the same model."""
+    pytest.importorskip("ezc3d", reason="the extra `mocap` is not installed")
+    text = LEG.read_text(encoding="utf-8")
+    parts = re.findall(r"\n[^\n]*<Body name=.*?</Body>", text, re.DOTALL)
+    assert len(parts) == 4
+    back = re.sub(r"(\n[^\n]*<Body name=.*</Body>)", "".join(parts[::-1]).replace("\\", r"\\"), text, flags=re.DOTALL)
+    (tmp_path / "back.osim").write_text(back, encoding="utf-8")
+    walk = write_theia(tmp_path / "walk.c3d", segments(swing()))
+    standing = write_theia(tmp_path / "static.c3d", segments(STANDING, PLACE))
+    for model in (LEG, tmp_path / "back.osim"):
+        result = gc.inverse_kinematics(walk, model=model, calibration=standing, heading="pelvis=-z", axes=LABORATORY)
+        assert any("the origin of pelvis is taken for that of pelvis" in line for line in result.warnings)
+        assert np.abs(found(result) - swing()).max() < 1e-6
 
 
 def test_noise_is_weighed_as_by_hand(tmp_path: Path) -> None:

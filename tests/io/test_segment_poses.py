@@ -34,6 +34,19 @@ def test_columns_are_axes_and_lengths_have_the_unit_of_points(unit: str, metre: 
     np.testing.assert_allclose(found.rotations[0, 1][:, 0], [0.0, 1.0, 0.0], atol=1e-7)
 
 
+def test_an_unreliable_pose_is_missing(tmp_path: Path) -> None:
+    """The 17th number of a pose, written into the file by hand: the last 2 * 5 * 17 of it are the poses."""
+    file = write_matrices(ezc3d, tmp_path / "a.c3d", ("pelvis", "l_thigh"), matrices(), "mm")
+    whole = file.read_bytes()
+    numbers = np.frombuffer(whole[-170 * 4 :], "<f4").reshape(5, 2, 17).copy()
+    np.testing.assert_array_equal(numbers[:, :, 16], 0.0)
+    numbers[2, 1, 16], numbers[4, 0, 16] = -1.0, 1.0
+    file.write_bytes(whole[: -170 * 4] + numbers.tobytes())
+    found = read_c3d_poses(file)
+    assert found.there.tolist() == [[True, frame != 2] for frame in range(5)]
+    assert found.origins is not None and np.isnan(found.origins[2, 1]).all()
+
+
 def test_what_is_no_pose_is_refused(tmp_path: Path) -> None:
     mirrored, sheared = matrices(), matrices()
     mirrored[1, 2, :3, 2] *= -1.0

@@ -96,6 +96,30 @@ def test_the_unit_is_the_one_that_the_file_states(tmp_path: Path) -> None:
             read_mesh(written(tmp_path, text), unit)
 
 
+COMMENT = "/* #9 = it's (a) comment; ADVANCED_FACE(1) */"
+
+
+def decorated(text: str) -> str:
+    """The same file with comments wherever they may stand, and names that look like other things."""
+    text = re.sub(r"^(#\d+) ?= ?", rf"\1 {COMMENT} = {COMMENT} ", text, flags=re.MULTILINE)
+    text = text.replace("GLOBAL_UNIT_ASSIGNED_CONTEXT(", f"GLOBAL_UNIT_ASSIGNED_CONTEXT {COMMENT} ( {COMMENT} ")
+    text = text.replace("CONVERSION_BASED_UNIT(", f"CONVERSION_BASED_UNIT({COMMENT}")
+    return text.replace("ADVANCED_FACE(''", "ADVANCED_FACE('/* it''s; #7 = ADVANCED_FACE(LENGTH_UNIT) #8'")
+
+
+@pytest.mark.parametrize("unit", ["mm", "in"])
+def test_comments_and_names_are_no_entities(unit: str, tmp_path: Path) -> None:
+    """ISO 10303-21, 6.5: a comment may stand wherever a blank may."""
+    plain = box((1.0, 2.0, 3.0), unit)
+    text = decorated(plain)
+    assert text.count(COMMENT) > 40 and text.count("it''s") == plain.count("ADVANCED_FACE") == 6
+    assert step.unit_of_step(text.encode(), "body.step") == unit
+    if unit == "mm" and importlib.util.find_spec("cascadio") is not None:
+        with pytest.warns(InputWarning, match="12 triangles within"):
+            vertices, faces = step.read_step(text.encode(), "body.step")
+        assert area_and_volume(vertices, faces) == pytest.approx((22.0, 6.0), rel=1e-6)
+
+
 def test_without_the_extra_the_remedy_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(step, "find_spec", lambda name: None)
     line = r"body.step: reading .step needs cascadio; pip install 'geocontact\[step\]', or export the surface as .stl"

@@ -24,7 +24,7 @@ from geocontact.analyses.motion.checked_trial import check_trial, turned_plates
 from geocontact.analyses.motion.markers import turn_of
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
-from geocontact.data.multibody.force_plate import HEAVY, LOADED, ForcePlate
+from geocontact.data.multibody.force_plate import ForcePlate, sum_of
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.sides import stem_and_side
 from geocontact.data.wrench import Wrench
@@ -34,6 +34,7 @@ from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import CentreOfPressure
 from geocontact.loads.plate_load import PlateCurves, load_on_plate, same_way_up
 from geocontact.loads.sphere_set import SphereSet
+from geocontact.standing_up.plate_places import from_line
 from geocontact.trial_checks.recorded import UP, FootPlate, TrialInputs
 
 AXES = "xyz"
@@ -63,13 +64,15 @@ def plates_under(
     if o.plate_pose is not None:
         add_input("`plate_pose`", o.plate_pose)
     if len(soles) > 1 and o.plate is None:
-        found = _by_place([_placed(plate, pose) for plate in plates], soles, o, o.compare)
+        found = _by_place(plates, pose, soles, o.compare)
     else:
-        names = [o.plate] if len(soles) == 1 or o.plate is None else o.plate.split(BESIDE)
+        names = [o.plate] if len(soles) == 1 or o.plate is None else [name.strip() for name in o.plate.split(BESIDE)]
         if len(names) != len(soles):
             what = f"names {counted(len(names), 'plate')} for {len(soles)} feet"
             raise InputError("", "`plate`", what, "name one for each foot of `body`, or leave it out")
         named = [plate_named(plates, name, o.compare, "`plate`") for name in names]
+        if len({id(plate) for plate in named}) < len(named):
+            raise InputError("", "`plate`", f"{o.plate} names a plate twice", "name each plate once")
         found = {name: _placed(plate, pose) for name, plate in zip(soles, named, strict=True)}
     add_input("`compare`", o.compare, plate=BESIDE.join(plate.name for plate in found.values()))
     for name, plate in found.items():
@@ -112,12 +115,20 @@ def _check(
 
 
 def _by_place(
-    plates: Sequence[ForcePlate], soles: Mapping[str, Sequence[Carrier]], o: CopOptions, file: Path
+    plates: tuple[ForcePlate, ...],
+    pose: RigidTransform | None,
+    soles: Mapping[str, Sequence[Carrier]],
+    file: Path,
 ) -> dict[str, ForcePlate]:
-    """Plates under each foot, added up; warnings for a foot without one and for a plate under several feet."""
+    """Plates under each foot, added up; warnings for a foot without one and for a plate under several feet.
+
+    What makes a plate useless, such as the force on the plate in place of that on the foot, is an InputError under a
+    foot and where no plate is found, and a warning where another foot has none.
+    """
     under: dict[str, list[ForcePlate]] = {name: [] for name in soles}
     nearest = np.inf
-    for plate in plates:
+    for each in plates:
+        plate = _placed(each, pose)
         away = {name: _away(plate, own) for name, own in soles.items()}
         if not np.isfinite(list(away.values())).any():
             continue
@@ -125,11 +136,15 @@ def _by_place(
         rest = min(other for foot, other in away.items() if foot != name)
         nearest = min(nearest, away[name])
         if away[name] <= BESIDE_FOOT and away[name] < 0.5 * rest:
+            plate_named(plates, each.name, file, "`plate`")
             under[name].append(plate)
             say(f"plate {plate.name} is under {name} ({1e3 * away[name]:.0f} mm)")
         elif away[name] <= BESIDE_FOOT:
             reserve(f"{file} {plate.name}: carries several feet, whose loads one plate does not separate: not compared")
     found = {name: _added(own, file) for name, own in under.items() if own}
+    if len(found) < len(soles):
+        used = {plate.name for own in under.values() for plate in own}
+        _explain([plate for plate in plates if plate.name not in used], plates, file, bool(found))
     if not found:
         loaded = np.isfinite(nearest)
         where = f"no plate is under one foot alone; the nearest is {nearest:.2f} m from one" if loaded else "no load"
@@ -140,6 +155,17 @@ def _by_place(
         what = f"no plate is under {', '.join(missing)} alone: not compared"
         reserve(f"{file}: {what}; does {others} carry both feet, of which one bears more?")
     return found
+
+
+def _explain(others: Sequence[ForcePlate], plates: tuple[ForcePlate, ...], file: Path, warn: bool) -> None:
+    """InputError for a plate that is not sound, a warning in its place if so asked for."""
+    for plate in others:
+        try:
+            plate_named(plates, plate.name, file, "`plate`")
+        except InputError as error:
+            if not warn:
+                raise
+            reserve(str(error))
 
 
 def _ends(sole: SphereSet) -> tuple[int, int]:
@@ -154,16 +180,12 @@ def _away(plate: ForcePlate, own: Sequence[Carrier]) -> float:
     without load during the motion.
     """
     motion, sole = own[0].motion, seen_from_first(own)
-    centre, load = plate.centre_of_pressure(), np.nan_to_num(plate.wrench.force @ plate.normal)
-    heavy = (load >= max(LOADED, HEAVY * float(load.max(initial=0.0)))) & np.isfinite(centre).all(axis=1)
-    heavy &= (plate.time >= motion.time[0]) & (plate.time <= motion.time[-1])
+    heavy = plate.heavy(motion.time[0], motion.time[-1])
     if not heavy.any():
         return float("inf")
     heel, toe = (_at(plate.time[heavy], motion, sole.centre[k]) for k in _ends(sole))
     flat = np.eye(3) - np.outer(plate.normal, plate.normal)
-    along, out = (toe - heel) @ flat, (centre[heavy] - heel) @ flat
-    share = np.clip(np.sum(out * along, axis=1) / np.fmax(np.sum(along**2, axis=1), 1e-12), 0.0, 1.0)
-    return float(np.median(np.linalg.norm(out - share[:, None] * along, axis=1)))
+    return float(np.median(from_line(plate.centre_of_pressure()[heavy] @ flat, heel @ flat, toe @ flat)))
 
 
 def _at(time: Float[np.ndarray, " s"], motion: Motion, place: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "s 3"]:
@@ -182,8 +204,7 @@ def _added(plates: Sequence[ForcePlate], file: Path) -> ForcePlate:
     if rise > ONE_LEVEL or any(not np.array_equal(plate.time, first.time) for plate in others):
         what = f"lie {1e3 * rise:.0f} mm apart in height, or have other times"
         raise InputError(file, names, what, "name one plate for each foot with `plate`")
-    about = [plate.wrench.moved_to(np.zeros(3)) for plate in plates]
-    force, moment = (np.sum([np.nan_to_num(getattr(w, key)) for w in about], axis=0) for key in ("force", "moment"))
+    force, moment = sum_of([plate.wrench.moved_to(np.zeros(3)) for plate in plates])
     wrench = Wrench(force, moment, np.zeros_like(force), first.wrench.frame)
     return replace(first, name=names, wrench=wrench, corners=None)
 

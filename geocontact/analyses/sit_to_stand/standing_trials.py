@@ -79,8 +79,8 @@ def standing_trials(
     study = read_standing_study(file)
     add_input(role, file, trials=len(study.trials))
     subject = replace(person_of(study), device=worn_device(study, file, device))
-    name_odd_segments(study.person, file)
-    confront_segments(subject, file)
+    name_odd_segments(study.person, study.height, file)
+    confront_segments(subject, file, study.person)
     size = TrialInputs(mass=study.mass, height=study.height, age=study.person.age, mass_option=f"mass in {file}")
     check_trial(size)
     usual = SOUGHT_WORN if study.exoskeleton else SOUGHT
@@ -190,7 +190,6 @@ def channels_of(
     require_tracked(files, tracks, study, place)
     time, q = motion_of_file(files.coordinates, chain, f"{files.name} coordinates")
     doubt_bending(files.coordinates, chain, q, hip_height(subject, q))
-    doubt_hinges(files.coordinates, q[:, ANGLES], q[:, len(COORDINATES) :])
     whole = MovedModel(chain, time, q, str(files.coordinates))
     feet, chair = plates_of_trial(files, place, time, c3d_unit, turn)
     if files.task == "stance" and feet is not None:
@@ -200,6 +199,7 @@ def channels_of(
         what = f"{int(used.sum())} samples are left of it"
         raise InputError(study, place, what, f"{FEWEST} are needed: check start, end and chair")
     time, q = time[used], q[used]
+    doubt_hinges(files.coordinates, q[:, ANGLES], q[:, len(COORDINATES) :])
     _doubt_task(files, hip_height(subject, q))
     u = np.zeros_like(q) if files.rates is None else rates_of(files.rates, chain, files.name, time)
     if files.rates is not None:

@@ -9,15 +9,15 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.analyses.frame.collector import add_input, reserve
-from geocontact.analyses.person import SUM, doubt_age, doubt_centre, doubt_value, name_unused
+from geocontact.analyses.person import OFF_CENTRE, SUM, WITHIN, doubt_age, doubt_centre, doubt_value, name_unused
 from geocontact.data.errors import InputError
 from geocontact.identify.signals.filters import zero_lag
 from geocontact.io.recordings.described_person import OVER_HIPS
 from geocontact.io.recordings.standing_study import StandingPerson, StandingStudy, StandingTrialFiles
-from geocontact.io.text.tables import read_table
-from geocontact.standing_up.chain import JOINTS, Subject
+from geocontact.io.text.tables import listed, read_table
+from geocontact.standing_up.chain import COORDINATES, JOINTS, Subject
 from geocontact.standing_up.exoskeleton import EXO_JOINTS
-from geocontact.standing_up.person_segments import LEG, from_proximal, segments_of
+from geocontact.standing_up.person_segments import LEG, PersonSegment, from_proximal, segments_of, to_proximal
 from geocontact.standing_up.worn_device import FRICTION_NAMES, WornDevice
 from geocontact.trial_checks.channel_checks import odd_rate
 
@@ -25,6 +25,9 @@ CUTOFF = 6.0
 """Cut-off of the hinges' angles, whose rates friction follows [Hz]; that of `sit-to-stand device` by default."""
 IDLE = 3.0
 """Torque of motors that do not help, in parts of the noise of a torque, at the most."""
+LOWER = {"foot": "ankle", "shank": "ankle", "thigh": "knee", "trunk": "hips"}
+PROXIMAL = {"foot": "heel", "shank": "knee", "thigh": "hip", "trunk": "hips"}
+"""Ends from which centres count in the former spelling, and as all commands have it."""
 Times = Float[np.ndarray, " t"]
 Table = Float[np.ndarray, "t c"]
 Used = Bool[np.ndarray, " t"]
@@ -39,20 +42,33 @@ def person_of(study: StandingStudy) -> Subject:
     return Subject(study.mass, study.height, sex=person.sex, own=own, age=person.age)
 
 
-def name_odd_segments(person: StandingPerson, study: Path) -> None:
-    """A warning for segments in the former spelling, and one for those that no chain of standing up has."""
+def name_odd_segments(person: StandingPerson, height: float, study: Path) -> None:
+    """A warning for segments in the former spelling, and one for those that no chain of standing up has.
+
+    The former says where the new one has their centres, which count from the other end; `height` [m] is the body's.
+    """
     unused = [f"segments.{name}" for name in person.own if name not in LEG]
     name_unused((study, "[person]"), unused, "sit-to-stand", f"its head, arms and trunk are segments.{OVER_HIPS}")
     if person.former:
         tables = ", ".join(f"[person.{name}]" for name in person.former)
         new = ", ".join(f"segments.{OVER_HIPS if name == 'trunk' else name}" for name in person.former)
-        reserve(f"{study} {tables}: former spelling, with centres from the lower joint; write {new}")
+        there = to_proximal(person.former, height, person.sex)
+        turned = [
+            f"{name} {1e3 * values['centre']:.0f} mm from the {PROXIMAL[name]}, in place of "
+            f"{1e3 * person.former[name]['centre']:.0f} from the {LOWER[name]}"
+            for name, values in there.items()
+            if "centre" in values and name in LEG
+        ]
+        centres = f"; centres are then {'; '.join(turned)}" if turned else ""
+        reserve(f"{study} {tables}: former spelling, with centres from the lower joint; write {new}{centres}")
 
 
-def confront_segments(subject: Subject, study: Path) -> None:
+def confront_segments(subject: Subject, study: Path, person: StandingPerson | None = None) -> None:
     """InputError where the segments' masses leave none for the trunk, or do not sum up to the body's.
 
     A warning for each own value that is far from that of the table for this mass and height, or not within its segment.
+    Centres count as `person` has them: from the proximal end, or from the lower joint in the former spelling and
+    without a person.
     """
     doubt_age((study, "[person] age"), subject.sex, subject.age, subject.mass, subject.height)
     masses = {name: segment.mass for name, segment in subject.segments.items()}
@@ -65,13 +81,37 @@ def confront_segments(subject: Subject, study: Path) -> None:
     usual = segments_of(subject.mass, subject.height, subject.sex, {}, subject.age)
     beside = f"a person of {subject.mass:.3g} kg and {subject.height:.3g} m"
     for name, values in subject.own.items():
-        segment = subject.segments[name]
-        for key in values:
-            value, table = getattr(segment, key), getattr(usual[name], key)
-            doubt_value(f"{study} [person] {name}", key, value, table, segment.length, beside)
+        segment, where = subject.segments[name], f"{study} [person] {name}"
+        for key in (key for key in values if key != "centre"):
+            doubt_value(where, key, getattr(segment, key), getattr(usual[name], key), segment.length, beside)
         if "centre" in values:
-            share, known = (each.centre / each.length for each in (segment, usual[name]))
-            doubt_centre(f"{study} [person] {name}", share, known, "ankle" if name == "foot" else "lower joint")
+            lower = person is None or name in person.former
+            _doubt_own_centre(where, name, segment, usual[name], subject, lower)
+
+
+def _doubt_own_centre(
+    where: str, name: str, own: PersonSegment, usual: PersonSegment, subject: Subject, lower: bool
+) -> None:
+    """A warning for a centre outside of its segment, far from the table's, or nearer to the table's from the other end.
+
+    `lower` is whether it counts from the lower joint.
+    """
+    below = [each.centre / each.length for each in (own, usual)]
+    above = [
+        to_proximal({name: {"centre": each.centre, "length": each.length}}, subject.height, subject.sex)[name]["centre"]
+        / each.length
+        for each in (own, usual)
+    ]
+    (share, table), other = (below, above[1]) if lower else (above, below[1])
+    end = (LOWER if lower else PROXIMAL)[name]
+    if not 0.0 <= share <= WITHIN["centre"]:
+        doubt_value(where, "centre", share * own.length, table * own.length, own.length, "")
+    elif abs(share - other) < abs(share - table) <= OFF_CENTRE:
+        what = f"its centre is at {share:.2f} of its length, {table:.2f} in the table from the {end}"
+        from_other = f"{other:.2f} from the {(PROXIMAL if lower else LOWER)[name]}"
+        reserve(f"{where}: {what} and {from_other}: which end is it from?", cause=True)
+    else:
+        doubt_centre(where, share, table, end)
 
 
 def joint_torques(
@@ -92,7 +132,7 @@ def joint_torques(
     if files.torques is None:
         return None
     role, at = f"{files.name} torques", time[used]
-    person = columns_at(files.torques, JOINTS, role, at)
+    person = torques_at(files.torques, JOINTS, role, at)
     if not angles.shape[1]:
         return person
     there = [name for name in EXO_JOINTS if name in read_table(files.torques).channels]
@@ -133,6 +173,16 @@ def _doubt_mode(files: StandingTrialFiles, torque: Table, noise: float) -> None:
         reserve(f"{files.name}: mode {files.mode}, and torques of {size:.1f} N m (root mean square): it helps")
     if files.mode == "active" and size < noise:
         reserve(f"{files.name}: mode active, and torques of {size:.2g} N m (root mean square): it does not help")
+
+
+def torques_at(file: Path, names: Sequence[str], role: str, time: Times) -> Float[np.ndarray, "t c"]:
+    """Torques at the times of the trial [N m]; InputError for a file of coordinates, whose columns have these names."""
+    table = read_table(file)
+    placed = [name for name in COORDINATES[:3] if name in table.channels]
+    if placed:
+        what = f"has columns {listed(tuple(placed))}: it holds coordinates, not torques"
+        raise InputError(file, "", what, "give torques of the joints in N m, such as those of inverse dynamics")
+    return columns_at(file, names, role, time)
 
 
 def columns_at(file: Path, names: Sequence[str], role: str, time: Times) -> Float[np.ndarray, "t c"]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.spatial.transform import Rotation
 
 from geocontact.data.wrench import Wrench
@@ -82,6 +83,12 @@ class ForcePlate:
         )
         return Wrench(force, moment, np.zeros_like(force), about.frame)
 
+    def heavy(self, begin: float, end: float) -> Bool[np.ndarray, " t"]:
+        """Samples between two times [s] under load out of the floor, with a known centre of pressure."""
+        load = np.nan_to_num(self.wrench.force @ self.normal)
+        found = (load >= max(LOADED, HEAVY * float(load.max(initial=0.0)))) & (self.time >= begin) & (self.time <= end)
+        return np.asarray(found & np.isfinite(self.centre_of_pressure()).all(axis=1))
+
     def free_moment(self, gate: float = LOADED) -> Float[np.ndarray, " t"]:
         """Moment about the plate's normal through the centre of pressure [N m]; NaN below the gate."""
         return self.wrench.free_moment(self.centre_of_pressure(gate), self.normal)
@@ -121,3 +128,15 @@ class ForcePlate:
         return replace(
             self, wrench=wrench, point=turn.apply(self.point), normal=turn.apply(self.normal), corners=corners
         )
+
+
+def sum_of(wrenches: Sequence[Wrench]) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, "t 3"]]:
+    """Sum of forces [N] and of moments about their common origin [N m]; NaN where a sample of any of them is lost.
+
+    A plate below `LOADED` has no centre: a moment that is not a number there counts as none.
+    """
+    moments = []
+    for one in wrenches:
+        idle = np.linalg.norm(one.force, axis=1, keepdims=True) < LOADED
+        moments.append(np.where(idle & np.isnan(one.moment), 0.0, one.moment))
+    return np.sum([one.force for one in wrenches], axis=0), np.sum(moments, axis=0)

@@ -44,6 +44,8 @@ _FACES = re.compile(rb"\b(?:ADVANCED_FACE|FACE_SURFACE)\s*\(")
 _CONTEXT = re.compile(rb"GLOBAL_UNIT_ASSIGNED_CONTEXT\s*\(\s*\(([^)]*)\)")
 _SI = re.compile(rb"SI_UNIT\s*\(\s*(\$|\.\w+\.)\s*,\s*\.METRE\.\s*\)")
 _OTHER = re.compile(rb"CONVERSION_BASED_UNIT\s*\(\s*'([^']*)'")
+_COMMENTS = re.compile(rb"('[^']*(?:''[^']*)*')|/\*.*?\*/", re.DOTALL)
+_STRINGS = re.compile(rb"(CONVERSION_BASED_UNIT\s*\(\s*)?'[^']*(?:''[^']*)*'")
 _PREFIXED = {b"$": "m", b".CENTI.": "cm", b".MILLI.": "mm"}
 _NAMED = {b"INCH": "in", b"INCHES": "in"}
 _AGAIN = "export it again as STEP in mm, or as .stl"
@@ -56,11 +58,11 @@ def read_step(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.
         remedy = "pip install 'geocontact[step]', or export the surface as .stl"
         raise InputError(file, "", "reading .step needs cascadio", remedy)
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "in.step").write_bytes(data)
+        (Path(folder) / "in.step").write_bytes(_uncommented(data))
         _run(file, Path(folder))
         with np.load(Path(folder) / "out.npz", allow_pickle=False) as arrays:
             vertices, faces, surfaces = arrays["vertices"], arrays["faces"], int(arrays["surfaces"])
-    declared = len(_FACES.findall(data))
+    declared = len(_FACES.findall(_bare(data)))
     if surfaces < declared:
         what = f"OpenCASCADE reads {surfaces} of its {declared} faces: the surface would have holes"
         raise InputError(file, "", what, _AGAIN)
@@ -75,7 +77,7 @@ def unit_of_step(data: bytes, file: str) -> str:
     """Unit of length that the file states; InputError where it states none, several, or one that is not read."""
     if not data.lstrip().startswith(_HEAD):
         raise not_a("a STEP file", data, file)
-    entities = dict(_ENTITY.findall(data))
+    entities = dict(_ENTITY.findall(_bare(data)))
     found = set()
     for text in entities.values():
         for names in _CONTEXT.findall(text):
@@ -94,6 +96,16 @@ def require_unit_of_step(data: bytes, unit: str, file: str) -> None:
     own = unit_of_step(data, file)
     if own != unit:
         raise InputError(file, "", f"states that it is in {own}, the unit given is {unit}", f"give the unit {own}")
+
+
+def _uncommented(data: bytes) -> bytes:
+    """The file without comments, which may stand anywhere but in strings; OpenCASCADE does not read all of these."""
+    return _COMMENTS.sub(lambda found: found[1] or b" ", data)
+
+
+def _bare(data: bytes) -> bytes:
+    """The file without comments, and with empty strings except for names of units."""
+    return _STRINGS.sub(lambda found: found[0] if found[1] else b"''", _uncommented(data))
 
 
 def _length(entity: bytes) -> str:

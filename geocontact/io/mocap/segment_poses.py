@@ -51,7 +51,7 @@ def read_segments(path: str | PathLike[str], c3d_unit: str | None = None) -> Seg
 
 
 def read_c3d_poses(path: str | PathLike[str], c3d_unit: str | None = None) -> SegmentPoses:
-    """Poses of segments [m]; NaN where a matrix is missing. Labels are without `_4X4`."""
+    """Poses of segments [m]; NaN where a matrix is missing or marked as unreliable. Labels are without `_4X4`."""
     file = fspath(path)
     arrays = read_apart(path, __name__, analogs=False)
     matrices, labels = np.asarray(arrays["rotations"], float), [str(name) for name in arrays["labels"]]
@@ -64,6 +64,7 @@ def read_c3d_poses(path: str | PathLike[str], c3d_unit: str | None = None) -> Se
     metre, rate = point_metre(file, str(arrays["unit"]), c3d_unit), _rate(file, arrays)
     rotations, origins = matrices[:, :, :3, :3].copy(), metre * matrices[:, :, :3, 3]
     lost = ~np.isfinite(matrices).all(axis=(2, 3)) | (rotations == 0.0).all(axis=(2, 3))
+    lost |= ~np.asarray(arrays["valid"], bool)
     rotations[lost], origins[lost] = np.nan, np.nan
     _require_rotations(file, rotations, names)
     time = float(arrays["start"]) + np.arange(len(matrices)) / rate
@@ -120,7 +121,9 @@ def read_orientations(path: str | PathLike[str]) -> SegmentPoses:
 
 
 def poses_of(path: str) -> Arrays:
-    """Matrices (frames, segments, 4, 4) of a .c3d, labels, unit of points and rates, in this process."""
+    """Matrices (frames, segments, 4, 4) of a .c3d, whether their reliability, the 17th number, is not below 0, labels,
+    unit of points and rates, in this process.
+    """
     import ezc3d  # type: ignore[import-untyped]
 
     content = ezc3d.c3d(path)
@@ -131,6 +134,12 @@ def poses_of(path: str) -> Arrays:
     keys = ("LABELS", *(f"LABELS{k}" for k in range(2, 99)))
     matrices = np.moveaxis(data["rotations"], (3, 2), (0, 1))
     frames = data["points"].shape[2]
+    recorded = content.c3d_swig.data()
+    valid = [
+        [shown.rotation(j).isValid() for j in range(matrices.shape[1])]
+        for k in range(frames)
+        for shown in recorded.frame(k).rotations().subframes()
+    ]
 
     def one(key: str) -> float:
         values = np.asarray(group.get(key, {"value": []})["value"], float).ravel()
@@ -141,6 +150,7 @@ def poses_of(path: str) -> Arrays:
         "rate": np.array(rate),
         "start": np.array(float(head["first_frame"]) / max(rate, 1e-9)),
         "rotations": matrices,
+        "valid": np.array(valid, bool).reshape(matrices.shape[:2]),
         "labels": np.array([str(text).strip() for key in keys if key in group for text in group[key]["value"]], str),
         "unit": np.array(str(units[0]).strip() if len(units) else ""),
         "ratio": np.array(len(matrices) / max(frames, 1)),

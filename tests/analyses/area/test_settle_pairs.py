@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 import geocontact as gc
-from geocontact.analyses.area.pairs.rest import SettlePairsResult
+from geocontact.analyses.area.pairs.rest import SettlePairsResult, goodness_of
 from geocontact.analyses.area.pairs.virtual_work import imbalance
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.view.page.content import Scene, Table
@@ -347,6 +347,8 @@ def test_forces_over_time_are_those_of_single_runs(tmp_path: Path, column: str) 
         ({"time [s]": [0, 2], "force [N]": [-1, -1]}, {}, "no column fx, fy, fz or ball_fx, ball_fy, ball_fz"),
         ({"time [s]": [0, 2], "fx [N]": [-1, -1]}, {}, "column 'fx' has no effect: tx of ball is held"),
         ({"time [s]": [0, 2], "fy [N]": [0, 0]}, {}, "no force acts on ball"),
+        ({"time [s]": [0, 2], "fy": [-1, -1]}, {}, "column 'fy' has no unit; write it behind the name: fy [N]"),
+        ({"time [s]": [0, 2], "fy [N]": [-1, -1], "ball_fy [N]": [-2, -2]}, {}, "columns fy and ball_fy, both of ball"),
         (
             {"time [s]": [0, 2], "fy [N]": [-1, -1]},
             {"constant": 'fy = { value = -3, unit = "N" }\n'},
@@ -360,6 +362,18 @@ def test_forces_over_time_that_cannot_be_are_refused(
     with pytest.raises(InputError) as refused:
         settle(loaded(tmp_path, rows, **more))
     assert said in str(refused.value), refused.value
+
+
+def test_forces_of_storage_files_are_in_newtons_and_other_columns_are_named(tmp_path: Path) -> None:
+    """OpenSim's files have no units of columns; a column that is no force of this body is said to be unused."""
+    file = loaded(tmp_path, {"time [s]": [0, 2], "fy [N]": [-1, -1]})
+    head = "forces\nversion=1\nnRows=2\nnColumns=3\ninDegrees=no\nendheader\n"
+    written(tmp_path / "forces.sto", f"{head}time\tball_fy\tfemur_fy\n0\t-200\t-9\n2\t-400\t-9\n")
+    described(tmp_path, file.read_text("utf-8").replace("forces.csv", "forces.sto"))
+    with pytest.warns(InputWarning) as said:
+        result = gc.settle_pairs(file)
+    np.testing.assert_allclose(result.loads["plate"][:, 1], [-200.0, -300.0, -400.0], rtol=1e-4)
+    assert [1 for each in said if str(each.message).endswith("not used as forces on ball: femur_fy")]
 
 
 def test_forces_balance_by_virtual_work(resting: SettlePairsResult) -> None:
@@ -380,6 +394,37 @@ def test_forces_balance_by_virtual_work(resting: SettlePairsResult) -> None:
         assert imbalance(spoilt)[0] == pytest.approx(0.1, rel=0.02)
     finally:
         spoilt.wrenches["ball_head"][:, :3] /= 1.1
+
+
+def test_a_body_that_bears_nothing_hides_no_imbalance(tmp_path: Path) -> None:
+    """A ball on a spring, apart from the head: loads of the head doubled are 900 N of 1800 that it then bears."""
+    apart = hip(tmp_path, ball=0.0).read_text("utf-8")
+    spring = 'springs.ty = { value = 10, unit = "N/mm" }\n'
+    free = (
+        apart.replace('fy = { value = -0, unit = "N" }\n', "").replace('fy = { value = 0, unit = "N" }\n', "") + spring
+    )
+    file = described(tmp_path, free.replace('motion = "ball.csv"', 'motion = "away.csv"'))
+    turned(tmp_path, "away.csv", PLACE + TURN.apply([0.0, 40.0, 0.0]), TURN)
+    result = settle(file)
+    assert (result.loads["ball"] == 0.0).all() and imbalance(result.resting).max() < 1e-3
+    spoilt = result.resting
+    spoilt.wrenches["head_cup"][:] *= 2.0
+    np.testing.assert_allclose(imbalance(spoilt), 1.0, rtol=1e-3)
+    assert [each for each in goodness_of(spoilt).doubts if "virtual work" in each.what and each.contradicts]
+
+
+def test_a_ramp_from_no_force_at_all(tmp_path: Path) -> None:
+    """0, 200 and 400 N at 0, 1 and 2 s: the first frame bears nothing, which is said; nothing is divided by it."""
+    result = settle(loaded(tmp_path, {"time [s]": [0.0, 2.0], "fy [N]": [0.0, -400.0]}))
+    np.testing.assert_allclose(result.loads["plate"][:, 1], [0.0, -200.0, -400.0], rtol=1e-4, atol=1e-9)
+    found = imbalance(result.resting)
+    assert found[0] == 0.0 and (found[1:] < 1e-3).all()
+    spoilt = result.resting
+    spoilt.wrenches["ball_plate"][:] *= 2.0
+    np.testing.assert_allclose(imbalance(spoilt), [0.0, 1.0, 1.0], rtol=1e-3)
+    with pytest.warns(InputWarning) as said:
+        gc.settle_pairs(tmp_path / "pairs.toml")
+    assert [1 for each in said if "no force acts at 0 s: bodies stay" in str(each.message)]
 
 
 def test_a_layer_that_is_pressed_everywhere_is_doubted(tmp_path: Path) -> None:

@@ -82,6 +82,29 @@ def walked(folder: Path, belt: float = 0.0, shear: float = 0.0, off: float = 0.0
     return {"model": folder / "body.osim", "plates": folder / "plates.mot", "feet": "right_force", "leg": "right"}
 
 
+def without_samples(file: Path, first: float, last: float) -> None:
+    """The second plate's columns are lost between two times."""
+    lines = file.read_text().splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("time"))
+    lost = [k for k, name in enumerate(lines[head].split("\t")) if name.startswith("left_")]
+    assert lost
+    for k in range(head + 1, len(lines)):
+        cells = lines[k].split("\t")
+        if first <= float(cells[0]) <= last:
+            lines[k] = "\t".join("nan" if j in lost else cell for j, cell in enumerate(cells))
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def test_lost_samples_of_a_plate_are_no_load(tmp_path: Path) -> None:
+    """The other foot's plate alone is not the load of both feet; what is lost outside of the motion is left out."""
+    given = in_space(tmp_path)
+    without_samples(tmp_path / "plates.mot", 0.0, 0.1)
+    result = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given, time=(0.2, 1.8))
+    assert result.given.clock is not None and result.given.clock[0] > 0.1 and np.isfinite(result.given.feet).all()
+    with pytest.raises(gc.InputError, match=r"samples from 0.0\d+ to 0.1 s have no force or no moment; fill the gaps"):
+        gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
+
+
 def test_a_stance_is_cut_and_read_with_the_load_of_the_rest(tmp_path: Path) -> None:
     result = gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **walked(tmp_path, belt=1.1), belt=1.1)
     (span,) = result.spans

@@ -5,6 +5,7 @@ The trials are synthetic: those of `meshes`, put into space by `meshes.whole_bod
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.collector import collecting, current
 from geocontact.analyses.frame.record import Record
 from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
 from geocontact.io.text.tables import read_table
@@ -49,6 +51,8 @@ def test_a_worn_trial_is_found_again_with_all_its_channels(tmp_path: Path) -> No
     for channel, atol in (("q", 1e-7), ("force", 1e-4), ("centre", 1e-6), ("torque", 1e-9), ("strap", 1e-9)):
         np.testing.assert_allclose(getattr(other, channel), getattr(one, channel)[moving], atol=atol, err_msg=channel)
     table = read_table(file.parent / "coordinates.mot")
+    inputs = json.loads((file.parent / "run.json").read_text("utf-8"))["inputs"]
+    assert {"`torques`", "`strap`"} <= {one["role"] for one in inputs}
     assert abs(float(table.column("exo_knee").max()) - 90.0) < 40.0  # a seated knee, printed in degrees
 
 
@@ -92,9 +96,47 @@ def test_a_study_with_such_hinges_is_refused_before_any_search(tmp_path: Path) -
         standing_trials(tmp_path / "study.toml", "study")
 
 
+def test_hinges_are_doubted_where_samples_are_used(tmp_path: Path) -> None:
+    """Exoskeleton not yet on, or already off: what lies outside of the trial says nothing of it."""
+    for file in WORN.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    lines = (WORN / "T1_coordinates.sto").read_text().splitlines()
+    table = [line.split() for line in lines[7:]]
+    cut = (tmp_path / "study.toml").read_text("utf-8").replace('name = "T1"', 'name = "T1"\nend = 1.0', 1)
+    (tmp_path / "study.toml").write_text(cut, encoding="utf-8")
+    for row in table:
+        if float(row[0]) > 1.0:
+            row[7:] = ["200", "200", "200"]
+    text = "\n".join([*lines[:7], *("\t".join(row) for row in table)]) + "\n"
+    (tmp_path / "T1_coordinates.sto").write_text(text, encoding="utf-8")
+    with collecting(Record("test", {})):
+        standing_trials(tmp_path / "study.toml", "study")
+        assert not [line for line in current().warnings if "exo_" in line and "root mean square" in line]
+
+
+def test_torques_and_strap_are_read(tmp_path: Path) -> None:
+    """Files that a study of them would refuse are refused before it is written, and in a study as well."""
+    given = in_space(tmp_path)
+    late = tmp_path / "late.csv"
+    late.write_text("\n".join((WORN / "T1_strap.csv").read_text("utf-8").splitlines()[:50]) + "\n", encoding="utf-8")
+    for key, file, words in (
+        ("torques", WORN / "T1_coordinates.sto", r"has columns foot_x, foot_y, foot_turn: it holds coordinates, not"),
+        ("torques", WORN / "T1_strap.csv", "ankle"),
+        ("strap", late, r"the trial from 0.01 to 1.79 s"),
+    ):
+        with pytest.raises(gc.InputError, match=words):
+            gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **(given | {key: file}))
+    for file in WORN.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    (tmp_path / "T1_torques.sto").write_bytes((WORN / "T1_coordinates.sto").read_bytes())
+    opened(Record("sit-to-stand calibrate", {}))
+    with pytest.raises(gc.InputError, match="it holds coordinates, not torques"):
+        standing_trials(tmp_path / "study.toml", "study")
+
+
 def test_what_cannot_be_separated_is_said(tmp_path: Path) -> None:
     given = in_space(tmp_path) | {"strap": None}
-    with pytest.raises(gc.InputError, match="stiffness and place and the person's torques are not separable"):
+    with pytest.raises(gc.InputError, match=r"`strap`.*stiffness and place and the person's torques are not separable"):
         gc.sit_to_stand.coordinates(tmp_path / "ik.mot", **given)
     given = in_space(tmp_path) | {"worn": WORN / "T1_torques.sto"}
     with pytest.raises(gc.InputError):

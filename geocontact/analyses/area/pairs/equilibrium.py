@@ -22,7 +22,7 @@ from geocontact.geometry.curvature import corner_normals
 from geocontact.geometry.surface import Surface
 from geocontact.io.recordings.contact_pairs import DescribedFree
 from geocontact.io.recordings.load_cells import column_in_newtons
-from geocontact.io.text.tables import listed, read_table
+from geocontact.io.text.tables import TextTable, listed, read_table
 from geocontact.loads.foundation import layer_loads
 from geocontact.loads.pressure_load import PressureLoad
 from geocontact.loads.settling import Rest
@@ -107,7 +107,7 @@ def read(o: SettlePairsOptions) -> PressingBodies:
         if one.body not in pressing:
             what = f"{one.body} is in no pair that has a layer: nothing presses on it"
             raise InputError(o.description, f"[[free]] {k} body", what, "describe the layer of one of its pairs")
-    forces = {one.body: _over_time(one, one.forces, touching.time) for one in touching.free if one.forces is not None}
+    forces = {one.body: _over_time(one, one.forces, touching) for one in touching.free if one.forces is not None}
     if not any(one.fx or one.fy or one.fz or one.body in forces for one in touching.free):
         what = "no force acts on any of the bodies: nothing presses them together"
         raise InputError(o.description, "[[free]]", what, "write fx, fy or fz of one")
@@ -118,28 +118,53 @@ def read(o: SettlePairsOptions) -> PressingBodies:
     return PressingBodies(touching, tuple(pair.name for pair in layered), pairs, free, axes, forces)
 
 
-def _over_time(one: DescribedFree, file: Path, time: Float[np.ndarray, " t"]) -> Float[np.ndarray, "t 3"]:
+def _over_time(one: DescribedFree, file: Path, touching: TouchingBodies) -> Float[np.ndarray, "t 3"]:
     """Force on a body at the times of the motion, linear between the rows of its table [N]."""
-    table = read_table(file)
+    table, time = read_table(file), touching.time
     add_input(f"forces on {one.body}", file, rows=len(table.time))
     begin, end = table.time[[0, -1]]
     if begin > time[0] + 1e-9 or end < time[-1] - 1e-9:
         what = f"runs from {begin:g} to {end:g} s, the motion from {time[0]:g} to {time[-1]:g} s"
         raise InputError(file, "", what, "put both on one clock, or cut the motion")
     found = np.zeros((len(time), 3))
-    columns = {axis: name for axis in "xyz" for name in (f"f{axis}", f"{one.body}_f{axis}") if name in table.channels}
-    if not columns:
-        what = f"no column fx, fy, fz or {one.body}_fx, {one.body}_fy, {one.body}_fz"
-        raise InputError(file, "", what, f"columns are: {listed(table.channels)}")
+    columns = _columns(one, file, table)
     for axis, name in columns.items():
-        values, _ = column_in_newtons(table, name, None)
+        values = _newtons(table, name, file)
         if values.any() and f"t{axis}" not in one.settles:
             what = f"column '{name}' has no effect: t{axis} of {one.body} is held"
             raise InputError(file, "", what, f"add t{axis} to settles, or leave the column out")
         found[:, "xyz".index(axis)] = np.interp(time, table.time, values)
     if not found.any():
         raise InputError(file, "", f"no force acts on {one.body}", "check its columns, or leave `forces` out")
+    sharing = [each.body for each in touching.free if each.forces == file]
+    theirs = {name for body in sharing for axis in "xyz" for name in (f"f{axis}", f"{body}_f{axis}")}
+    unused = tuple(name for name in table.channels if name not in theirs)
+    if unused and one.body == sharing[0]:
+        reserve(f"{file}: columns not used as forces on {listed(tuple(sharing))}: {listed(unused)}")
     return found
+
+
+def _columns(one: DescribedFree, file: Path, table: TextTable) -> dict[str, str]:
+    """Column of each axis that a table has for a body; InputError for two of one axis, and for none at all."""
+    both = {axis: [n for n in (f"f{axis}", f"{one.body}_f{axis}") if n in table.channels] for axis in "xyz"}
+    for names in both.values():
+        if len(names) > 1:
+            what = f"has columns {' and '.join(names)}, both of {one.body}"
+            raise InputError(file, "", what, "leave one of them out")
+    columns = {axis: names[0] for axis, names in both.items() if names}
+    if not columns:
+        what = f"no column fx, fy, fz or {one.body}_fx, {one.body}_fy, {one.body}_fz"
+        raise InputError(file, "", what, f"columns are: {listed(table.channels)}")
+    return columns
+
+
+def _newtons(table: TextTable, name: str, file: Path) -> Float[np.ndarray, " t"]:
+    """A column of forces [N]; without a unit those of .mot and .sto are in N, and those of other tables refused."""
+    table.needed(name)
+    said, storage = table.units[table.channels.index(name)], file.suffix.lower() in (".mot", ".sto")
+    if not said and not storage:
+        raise InputError(file, "", f"column '{name}' has no unit", f"write it behind the name: {name} [N]")
+    return column_in_newtons(table, name, None if said else "N")[0]
 
 
 def _free(one: DescribedFree) -> FreeBody:

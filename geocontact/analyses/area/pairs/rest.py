@@ -168,6 +168,7 @@ def run(pressing: PressingBodies, o: SettlePairsOptions) -> SettlePairsResult:
         frames = settle_frames(pressing, each)
     resting = RestingBodies(pressing, tuple(frames))
     _refuse_nowhere(resting, o)
+    _name_idle(resting, o)
     judge(goodness_of(resting))
     result = SettlePairsResult(options=o, resting=resting)
     _summarise(result)
@@ -189,6 +190,16 @@ def _refuse_nowhere(r: RestingBodies, o: SettlePairsOptions) -> None:
         f"no frame came to rest; {_how_far(r, best)}",
         "let fewer coordinates settle, or write springs",
     )
+
+
+def _name_idle(r: RestingBodies, o: SettlePairsOptions) -> None:
+    """A reservation for frames in which no force acts: every place without contact is one of rest."""
+    idle = [f"{r.pressing.time[k]:g}" for k, frame in enumerate(r.frames) if frame.assembly.load == 0.0]
+    if idle:
+        times = ", ".join(idle[:NAMED]) + (", …" if len(idle) > NAMED else "")
+        reserve(
+            f"{o.description}: no force acts at {times} s: bodies stay where the frame before or the motion has them"
+        )
 
 
 def _how_far(r: RestingBodies, k: int) -> str:
@@ -224,7 +235,7 @@ def goodness_of(r: RestingBodies) -> GoodnessOfFit:
         peak = float(np.nanmax(r.of_contact(name, lambda load: load.peak)))
         if peak > 0.0:
             doubts += of_size(f"the largest pressure of {name}", (peak, peak), BEARING)
-    off = float(np.nanmax(imbalance(r)))
+    off = float(imbalance(r)[r.kept].max())
     if off > BALANCED:
         line = f"virtual work of contacts and applied forces differs by {off:.1%}; give a smaller piece of the layers"
         doubts.append(Doubt(line, off > UNBALANCED, off))
@@ -243,7 +254,7 @@ def _summarise(result: SettlePairsResult) -> None:
         found[name] = {"largest_force_N": float(np.nanmax(force)), "largest_pressure_MPa": float(peak)}
         if not np.nanmax(force) > 0.0:
             reserve(f"{name}: the bodies never press on each other")
-    found["virtual_work_imbalance"] = float(np.nanmax(imbalance(r)))
+    found["virtual_work_imbalance"] = float(imbalance(r)[r.kept].max())
     found["largest_residual_N"] = float(r.residuals[r.kept].max())
     found["newton_steps_per_frame"] = round(float(np.mean([frame.rest.steps for frame in r.frames])), 2)
     note("equilibrium", found)

@@ -23,13 +23,19 @@ STEP = 1e-5
 
 
 def imbalance(r: RestingBodies) -> Float[np.ndarray, " t"]:
-    """Largest sum of works over the displacement, in parts of what the body bears; not a number without rest."""
+    """Largest sum of works over the displacement, in parts of what the body bears; not a number without rest.
+
+    A body that bears less than the smallest applied force is measured by that, of the frame or else of the motion;
+    nothing works on one whose sum is nothing.
+    """
     found = np.full(len(r.frames), np.nan)
+    least = min(load for frame in r.frames if (load := frame.assembly.load) > 0.0)
     for k in r.kept:
         frame = r.frames[k]
         loads = {name: rows[k] for name, rows in r.loads.items()}
         left = np.abs(_forces(frame.assembly, frame.rest.total.values, loads)).reshape(-1, 6).max(axis=1)
-        found[k] = float((left / frame.assembly.borne(frame.rest.total)).max())
+        size = np.maximum(frame.assembly.borne(frame.rest.total), frame.assembly.load or least)
+        found[k] = float((left / size).max())
     return found
 
 

@@ -218,7 +218,7 @@ def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     exchanged = fit is None and _warn_of_markers(tree, seen, found)
     if not exchanged and "upright" not in seen.doubts:
         warn_of_tilt(seen.model, found.values, o.axes)
-    _warn(found)
+    _warn(found, "markers" if fit is None else "segments")
     if o.joint_angles is not None:
         warn_of_gimbal_lock(seen.model, found.time, np.asarray(found.values), o.joint_angles)
     for end in of_ends(found, seen.model):
@@ -292,17 +292,17 @@ def _of_markers(found: Poses) -> dict[str, object]:
     }
 
 
-def _warn(found: Poses) -> None:
+def _warn(found: Poses, recorded: str) -> None:
     if not found.settled.all():
         count = int((~found.settled).sum())
-        reserve(f"{count} frames did not converge: markers and model may not match")
+        reserve(f"{count} frames did not converge: {recorded} and model may not match")
     never = np.asarray(~found.determined.any(axis=0))
     if never.any():
         names = tuple(name for name, each in zip(found.names, never, strict=True) if each)
         reserve(f"no frame determines {listed(names)}: set to the model's default")
     for lost, what in (
         (~found.determined & np.isfinite(found.values) & ~never, "filled between frames that determine them"),
-        (~np.isfinite(found.values), "left empty, markers do not determine them"),
+        (~np.isfinite(found.values), f"left empty, {recorded} do not determine them"),
     ):
         names = tuple(name for name, each in zip(found.names, lost.any(axis=0), strict=True) if each)
         if names:

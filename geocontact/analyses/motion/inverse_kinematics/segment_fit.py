@@ -16,8 +16,11 @@ from geocontact.identify.goodness_of_fit import Doubt
 from geocontact.view.curves.declared import Curve, Curves
 from geocontact.view.page.content import Row, Table
 
-LARGE, ABSURD = np.radians(10.0), np.radians(30.0)
-"""Root mean square angle from which a fit is doubtful, and from which it contradicts the recording; our own choice."""
+LARGE, LARGEST, ABSURD = np.radians(5.0), np.radians(15.0), np.radians(30.0)
+"""Root mean square and largest angle from which a fit is doubtful, and root mean square from which it contradicts the
+recording; our own choice. A leg with one pin at the knee, faced the wrong way by 180 degrees, is 5.9 degrees off."""
+SIDEWAYS = np.radians(60.0)
+"""Angle between the way and where the model faces from which one is doubted; our own choice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +37,15 @@ class SegmentFit:
         Between each as recorded and in the model [rad]; NaN where it was not seen.
     distances
         Of the origins [m]; None of sensors.
+    off_its_way
+        Level angle between where the person went and where the model faces [rad]; None where nobody went far.
     """
 
     time: Float[np.ndarray, " t"]
     names: tuple[str, ...]
     angles: Float[np.ndarray, "t s"]
     distances: Float[np.ndarray, "t s"] | None
+    off_its_way: float | None
 
     @classmethod
     def of(cls, found: Poses, segments: Segments) -> SegmentFit:
@@ -53,7 +59,7 @@ class SegmentFit:
         places = None
         if segments.poses.origins is not None:
             places = np.column_stack([at.get(origin_of(name), nothing) for name in segments.names])
-        return cls(found.time, segments.names, np.column_stack(angles), places)
+        return cls(found.time, segments.names, np.column_stack(angles), places, segments.off_its_way())
 
     @property
     def rms(self) -> float:
@@ -82,8 +88,9 @@ class SegmentFit:
         return {**found, "segments": each}
 
     def sentence(self) -> str:
-        """How many segments there are, and the numbers."""
-        return f"{len(self.names)} segments: {self.words()}"
+        """How many segments there are, the numbers, and what they do not test."""
+        counted = "joint angles count from the pose of the calibration, which is not tested"
+        return f"{len(self.names)} segments: {self.words()}; {counted}"
 
     def words(self) -> str:
         """The numbers in one clause."""
@@ -105,6 +112,13 @@ class SegmentFit:
         if self.rms > LARGE:
             what = f"segments are {np.degrees(self.rms):.0f} degrees from the model, root mean square"
             yield Doubt(what, self.rms > ABSURD, self.rms / LARGE)
+        if (most := _most(self.angles)) > LARGEST:
+            frame, k = _worst(self.angles)
+            what = f"{self.names[k]} is {np.degrees(most):.0f} degrees from the model at {self.time[frame]:.3g} s"
+            yield Doubt(what, False, most / LARGEST)
+        if self.off_its_way is not None and self.off_its_way > SIDEWAYS:
+            what = f"the model faces {np.degrees(self.off_its_way):.0f} degrees from where the person goes"
+            yield Doubt(f"{what}, unless backwards or sideways", False, self.off_its_way / SIDEWAYS)
         if self.distances is not None and (off := _rms(self.distances)) > MOVING.rms:
             what = f"origins of segments are {1e3 * off:.0f} mm from the model, root mean square"
             yield Doubt(what, off > FAR, off / MOVING.rms)

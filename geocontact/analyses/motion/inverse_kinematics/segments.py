@@ -47,6 +47,8 @@ THEIA = {
 }
 """Bodies of OpenSim's models by Theia's segments, whose side stands before the name: l_thigh, femur_l."""
 AXES = "xyz"
+WALKED = 1.0
+"""m, from the first to the last frame, from which the way says where somebody faces; our own choice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +63,17 @@ class Segments:
         One for each segment.
     placed
         X_BS of each; its translation is 0 of sensors, which know no place.
+    up
+        Unit vector upwards in the model's axes.
+    root
+        Number of the segment whose body is the nearest to the ground in the tree.
     """
 
     poses: SegmentPoses
     bodies: tuple[str, ...]
     placed: tuple[RigidTransform, ...]
+    up: Float[np.ndarray, " 3"]
+    root: int
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -105,6 +113,22 @@ class Segments:
         names = tuple(marker.name for marker in self.markers())
         return MarkerTrajectories(self.poses.time, np.stack(columns, axis=1), names, self.poses.source)
 
+    def off_its_way(self) -> float | None:
+        """Level angle between the way of the root's origin and where its x axis points in the mean [rad].
+
+        None of sensors, and where the way from the first to the last frame is shorter than `WALKED`.
+        """
+        there = np.flatnonzero(self.poses.there[:, self.root])
+        if self.poses.origins is None or not len(there):
+            return None
+        level = np.eye(3) - np.outer(self.up, self.up)
+        way = level @ (self.poses.origins[there[-1], self.root] - self.poses.origins[there[0], self.root])
+        axis = self.placed[self.root].rotation.as_matrix().T[:, 0]
+        faced = level @ (self.poses.rotations[there, self.root] @ axis).mean(axis=0)
+        if np.linalg.norm(way) < WALKED or np.linalg.norm(faced) < UPRIGHT:
+            return None
+        return float(np.arccos(np.clip(way @ faced / (np.linalg.norm(way) * np.linalg.norm(faced)), -1.0, 1.0)))
+
     def weights(self, sizes: Mapping[str, float]) -> dict[str, float]:
         """Weights of the markers from those of orientations and origins."""
         found = {axis: sizes[name] for name in self.names for axis in axes_of(name)}
@@ -123,7 +147,7 @@ def origin_of(name: str) -> str:
 
 def segments_given(o: IkOptions, model: Multibody) -> Segments:
     """Segments of the recording that a body of the model belongs to, placed in it by the calibration."""
-    seen = _read(o, o.markers)
+    whole = seen = _read(o, o.markers)
     if o.time is not None:
         part = seen.between(*o.time)
         if not len(part):
@@ -132,19 +156,26 @@ def segments_given(o: IkOptions, model: Multibody) -> Segments:
             raise InputError(seen.source, "`time`", what, remedy)
         seen = part
     bodies = _bodies(model, seen, o.markers_map)
-    if o.calibration is None:
-        still, where = seen, "the first frame"
-    else:
-        still, where = _read(o, o.calibration), f"the first frame of {o.calibration.name}"
+    still = seen
+    if o.calibration is not None:
+        whole = still = _read(o, o.calibration)
         add_input("`calibration`", o.calibration, frames=len(still), segments=len(still.names))
         lost = [name for name in bodies if name not in still.names]
         if lost:
             what = f"{lost[0]} was not recorded"
             raise InputError(still.source, "`calibration`", what, f"there are {listed(still.names)}")
-    placed = _placed(model, still.of(tuple(bodies)), tuple(bodies.values()), o.heading)
+    names, own = tuple(bodies), tuple(bodies.values())
+    still = still.of(names)
+    shown = _first_whole(still)
+    root = _root(model, own)
+    placed = _placed(model, still, own, shown, root, o.heading)
+    number = int(np.searchsorted(whole.time, still.time[shown])) + 1
+    where = "the first frame" if number == 1 else f"frame {number} ({still.time[shown]:g} s)"
+    where += "" if o.calibration is None else f" of {o.calibration.name}"
+    where += ", the first that shows all segments," if shown else ""
     faces = "" if o.heading is not None else ", facing its x axis (else `heading`)"
     reserve(f"{where} places segments in bodies: the person is taken to stand as the model does by default{faces}")
-    return Segments(seen.of(tuple(bodies)), tuple(bodies.values()), placed)
+    return Segments(seen.of(names), own, placed, np.asarray(model.up), root)
 
 
 def _read(o: IkOptions, file: Path) -> SegmentPoses:
@@ -193,25 +224,42 @@ def _body(name: str, own: Sequence[str]) -> str:
     return next((body for body in (stem, *known) if body in own), "")
 
 
-def _placed(
-    model: Multibody, still: SegmentPoses, bodies: tuple[str, ...], heading: str | None
-) -> tuple[RigidTransform, ...]:
-    """X_BS of each segment in the first frame that shows all of them; origins count from the first body's."""
+def _first_whole(still: SegmentPoses) -> int:
+    """Number of the first frame that shows all segments; InputError where none does."""
     whole = np.flatnonzero(still.there.all(axis=1))
     if not len(whole):
         never = [name for name, seen in zip(still.names, np.asarray(still.there.any(axis=0)), strict=True) if not seen]
         what = f"no frame shows all segments{f'; {listed(tuple(never))} in none' if never else ''}"
         raise InputError(still.source, "", what, "give another `calibration`, or leave out with `markers_map`")
-    rotations = still.rotations[whole[0]]
+    return int(whole[0])
+
+
+def _root(model: Multibody, bodies: tuple[str, ...]) -> int:
+    """Number of the body that the fewest joints lead to from the ground, the first in the model's order of several."""
+    parents = {joint.child: joint.parent for joint in model.joints}
+    order = [body.name for body in model.bodies]
+
+    def joints_to(body: str) -> int:
+        count = 0
+        while body in parents and count < len(order):
+            body, count = parents[body], count + 1
+        return count
+
+    return min(range(len(bodies)), key=lambda k: (joints_to(bodies[k]), order.index(bodies[k])))
+
+
+def _placed(
+    model: Multibody, still: SegmentPoses, bodies: tuple[str, ...], shown: int, first: int, heading: str | None
+) -> tuple[RigidTransform, ...]:
+    """X_BS of each segment in the frame `shown`; origins count from that of the body `first`."""
+    rotations = still.rotations[shown]
     rest = model.poses(model.coupled(np.array([[c.default for c in model.coordinates]])))
     frames = [rest[body][0] for body in bodies]
     turn = Rotation.identity() if heading is None else _heading(model, still, bodies, rotations, frames, heading)
     made = [frame.rotation.inv() * turn * Rotation.from_matrix(r) for frame, r in zip(frames, rotations, strict=True)]
     if still.origins is None:
         return tuple(RigidTransform.from_rotation(one) for one in made)
-    order = [body.name for body in model.bodies]
-    first = min(range(len(bodies)), key=lambda k: order.index(bodies[k]))
-    places = turn.apply(still.origins[whole[0]] - still.origins[whole[0], first]) + frames[first].translation
+    places = turn.apply(still.origins[shown] - still.origins[shown, first]) + frames[first].translation
     reserve(
         f"the origin of {still.names[first]} is taken for that of {bodies[first]}: shifts of {bodies[first]} are its"
     )

@@ -13,6 +13,8 @@ from geocontact.data.units import Unit
 
 BELT = Plausible("the speed of a belt", Unit("m/s", "m/s", 1.0), (0.0, 8.0))
 
+APART = "without its force a strap's stiffness and place and the person's torques are not separable"
+
 
 @dataclass(frozen=True)
 class StandingCoordinatesOptions(Options):
@@ -40,7 +42,7 @@ class StandingCoordinatesOptions(Options):
     torques
         Torques of all joints and hinges of both legs (.sto), with `worn`.
     strap
-        Normal force of the thigh's strap (.csv), with `worn`; without it contacts and torques are not separable.
+        Normal force of the thigh's strap (.csv), which `worn` needs: else contacts and torques are not separable.
     belt
         Speed backwards of the treadmill that is walked on [m/s]: x is then that of the belt.
     height
@@ -55,8 +57,8 @@ class StandingCoordinatesOptions(Options):
 
     writes: ClassVar[str] = """
     Writes coordinates.mot, deviations.csv (from the plane, and of the legs from each other), segments.csv, plates.mot
-    (loads in the plane, with `plates`), study.toml for `sit-to-stand calibrate` with a trial for each movement or
-    stance, a figure, report.html and run.json into OUT.
+    (loads in the plane, with `plates`), copies of `torques` and `strap` under these names (with `worn`), study.toml
+    for `sit-to-stand calibrate` with a trial for each movement or stance, a figure, report.html and run.json into OUT.
     """
 
     over_time: ClassVar[bool] = True
@@ -69,7 +71,7 @@ class StandingCoordinatesOptions(Options):
     plates: Path | None = None
     feet: Annotated[str | None, Requires("plates")] = None
     chair: Annotated[str | None, Requires("plates")] = None
-    worn: Annotated[Path | None, Needs("plates"), Needs("torques")] = None
+    worn: Annotated[Path | None, Needs("plates"), Needs("torques"), Needs("strap", APART)] = None
     torques: Annotated[Path | None, Requires("worn")] = None
     strap: Annotated[Path | None, Requires("worn")] = None
     belt: Annotated[float, BELT] = 0.0

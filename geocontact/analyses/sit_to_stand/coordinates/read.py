@@ -15,16 +15,17 @@ from geocontact.analyses.motion.markers import turn_of
 from geocontact.analyses.sit_to_stand.coordinates.options import StandingCoordinatesOptions
 from geocontact.analyses.sit_to_stand.coordinates.plates import chosen_plates
 from geocontact.analyses.sit_to_stand.recorded_beside import ANGLES, UPRIGHT, doubt_bending, doubt_hinges
-from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST
+from geocontact.analyses.sit_to_stand.trial_recordings import FEWEST, site_force
+from geocontact.analyses.sit_to_stand.worn_trials import torques_at
 from geocontact.data.errors import InputError
-from geocontact.data.multibody.force_plate import ForcePlate
+from geocontact.data.multibody.force_plate import ForcePlate, sum_of
 from geocontact.data.multibody.joint import JointModel
 from geocontact.data.multibody.model import Multibody
 from geocontact.identify.signals.filters import UNEVEN
 from geocontact.io.opensim.coordinates import columns_of, coordinates_of, motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.text.tables import listed, read_table
-from geocontact.standing_up.chain import Subject, leg_chain
+from geocontact.standing_up.chain import JOINTS, Subject, leg_chain
 from geocontact.standing_up.exoskeleton import EXO_JOINTS, two_chains
 from geocontact.standing_up.movements import hip_height
 from geocontact.standing_up.planar_coordinates import LEG_JOINTS, BodyLeg, PlanarMotion, body_sites, planar_motion
@@ -99,9 +100,7 @@ def read(o: StandingCoordinatesOptions) -> PlanarRecording:
             moved=whole if hinges is None else None,  # its mass centre is that of the person alone
         )
     )
-    clock = under[0].time
-    feet = _load(under, clock, moved, o.belt)
-    chair = _load(seat, clock, moved, o.belt) if seat else None
+    clock, feet, chair = _loads(under, seat, time, moved, o)
     return PlanarRecording(time, moved, model.mass, clock, feet, chair, places, hinges)
 
 
@@ -109,9 +108,6 @@ def _hinges(o: StandingCoordinatesOptions, time: Times, moved: PlanarMotion) -> 
     """Angles of an exoskeleton's hinges at the times of the motion [rad]; None where none was worn."""
     if o.worn is None:
         return None
-    if o.strap is None:
-        what = "no force of a strap was recorded: its stiffness and place and the person's torques are not separable"
-        raise InputError("", "`worn`", what, "give the normal force of the thigh's `strap`: phases B and C need it")
     if o.leg != "both":
         raise InputError("", "`worn`", "has no effect on stances of one leg", "leave it out, or take both legs")
     table = read_table(o.worn)
@@ -130,6 +126,11 @@ def _hinges(o: StandingCoordinatesOptions, time: Times, moved: PlanarMotion) -> 
     found = coordinates_of(table, joints, columns, None)
     hinges = np.column_stack([np.interp(time, table.time, found[name]) for name in EXO_JOINTS])
     doubt_hinges(o.worn, moved.q[:, ANGLES], hinges)
+    inside = time[1:-1]  # files that end a sample before the motion cover its trials, as hinges do
+    if o.torques is not None:
+        torques_at(o.torques, JOINTS, "`torques`", inside)
+    if o.strap is not None:
+        site_force((o.strap,), "`strap`", "thigh", inside)
     return hinges
 
 
@@ -155,11 +156,32 @@ def _motion(model: Multibody, o: StandingCoordinatesOptions) -> tuple[Times, Flo
     return time, values
 
 
+def _loads(
+    under: Sequence[ForcePlate],
+    seat: Sequence[ForcePlate],
+    time: Times,
+    moved: PlanarMotion,
+    o: StandingCoordinatesOptions,
+) -> tuple[Times, Columns, Columns | None]:
+    """Times of the plates, loads of feet and chair there; InputError for samples that are lost during the motion.
+
+    Those lost before and after it are left out.
+    """
+    clock = under[0].time
+    feet = _load(under, clock, moved, o.belt)
+    chair = _load(seat, clock, moved, o.belt) if seat else None
+    lost = ~np.isfinite(feet if chair is None else np.hstack([feet, chair])).all(axis=1)
+    step = float(np.ptp(time)) / (len(time) - 1)
+    gaps = clock[lost & (clock >= time[0] + step) & (clock <= time[-1] - step)]
+    if len(gaps):
+        what = f"{len(gaps)} samples from {gaps[0]:g} to {gaps[-1]:g} s have no force or no moment"
+        raise InputError(o.plates or "", "", what, "fill the gaps, or cut the motion by `time`")
+    return clock[~lost], feet[~lost], None if chair is None else chair[~lost]
+
+
 def _load(plates: Sequence[ForcePlate], clock: Times, moved: PlanarMotion, belt: float) -> Columns:
-    """Sum over plates in the plane, about its origin, which goes with the belt; none where there is nothing."""
-    about = [plate.at(clock) for plate in plates]
-    force = moved.turn.apply(np.sum([np.nan_to_num(each.force) for each in about], axis=0))
-    moment = moved.turn.apply(np.sum([np.nan_to_num(each.moment) for each in about], axis=0))
+    """Sum over plates in the plane, about its origin, which goes with the belt; NaN where a sample is lost."""
+    force, moment = map(moved.turn.apply, sum_of([plate.at(clock) for plate in plates]))
     return np.hstack([force, moment + np.cross(np.outer(belt * clock, [1.0, 0.0, 0.0]), force)])
 
 
