@@ -63,7 +63,8 @@ def spread_starts(parameters: Sequence[Parameter], count: int, seed: int = 0) ->
 def latin_hypercube(dimensions: int, count: int, seed: int) -> Float[np.ndarray, "n d"]:
     """Points in the unit cube, one in each of `count` slices of each dimension.
 
-    McKay, Beckman and Conover (1979), Technometrics 21, 239. The same as `scipy.stats.qmc.LatinHypercube` draws, whose import takes half a second.
+    McKay, Beckman and Conover (1979), Technometrics 21, 239. `scipy.stats.qmc.LatinHypercube` draws the same, but its
+    import takes half a second.
     """
     rng = np.random.default_rng(seed).spawn(1)[0]  # as scipy does
     inside = rng.uniform(size=(count, dimensions))
