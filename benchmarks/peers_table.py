@@ -16,16 +16,18 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from benchmarks.machine import ROOT, write_results
+from benchmarks.machine import ROOT, as_json, stamp, write_results
 from benchmarks.one_core import pin
 
 FRAMES = 1001
+KEPT = ROOT / "benchmarks" / "results" / "peers_table.json"
 ENGINES = ("warp (CPU), bounded to 4 mm + longest edge", "fcpw, bounded", "libigl", "open3d", "VTK implicit distance")
 """Rows of the table of distances, by how their names begin; ours come first."""
 
@@ -116,8 +118,15 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--frames", type=int, default=FRAMES, help="of the swinging leg")
     parser.add_argument("--no-distances", action="store_true", help="whole commands only")
+    again = "only rows of distances whose engine begins so, each beside the map in this run; the others are kept"
+    parser.add_argument("--again", metavar="ENGINE", help=again)
     asked = parser.parse_args()
     pin()
+    if asked.again:
+        kept = json.loads(KEPT.read_text(encoding="utf-8"))
+        kept["figures"]["distances"] = renewed(kept["figures"]["distances"], distances(asked.rounds, (asked.again,)))
+        KEPT.write_text(as_json(kept), encoding="utf-8")
+        return
     with tempfile.TemporaryDirectory() as folder:
         jobs = all_jobs(Path(folder), asked.frames)
         for job in jobs:
@@ -254,14 +263,22 @@ def mass_centres(model: Path) -> np.ndarray:
     return np.array([[float(each) for each in one.split()] for one in found])
 
 
-def distances(rounds: int) -> list[dict[str, float | str]]:
-    """Rows of `benchmarks.area` that stand for each library."""
+def renewed(kept: Sequence[Mapping[str, Any]], found: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    """Rows in the place of earlier ones of the same engine, with when and where they were run; ours stays."""
+    ours, *others = found
+    about = {"run": stamp(), "ours_cpu_s": ours["cpu_s"]}
+    names = [each["engine"] for each in others]
+    return [*(each for each in kept if each["engine"] not in names), *({**each, **about} for each in others)]
+
+
+def distances(rounds: int, names: tuple[str, ...] = ENGINES) -> list[dict[str, float | str]]:
+    """Rows of `benchmarks.area` that stand for each library, ours first."""
     from benchmarks.area.measure import measured
     from benchmarks.engines.all import all_engines
     from benchmarks.engines.ours import OURS as MAP
     from benchmarks.pairs import PAIRS
 
-    engines = [each for each in all_engines() if each.name == MAP or each.name.startswith(ENGINES)]
+    engines = [each for each in all_engines() if each.name == MAP or each.name.startswith(names)]
     rows = measured(PAIRS["knee"](50_000, 101), engines, rounds, lambda line: print(line, file=sys.stderr, flush=True))
     ours = next(row for row in rows if row.engine.name == MAP)
     return [

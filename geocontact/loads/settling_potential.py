@@ -8,7 +8,7 @@ those of the axes; which turn is varus or internal depends on the side.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from jaxtyping import Float
@@ -97,10 +97,17 @@ class Bed:
     moving: Surface
     normals: Float[np.ndarray, "m 3 3"]
     point: Float[np.ndarray, " 3"]
+    _last: dict[bytes, FoundationState] = field(default_factory=dict, init=False, repr=False)
 
     def state(self, at: Placed) -> FoundationState:
-        """Energy, slope and stiffness at a place."""
-        return foundation_state(self.layer, self.moving, self.normals, at.rotation, at.translation, at.point)
+        """Energy, slope and stiffness at a place; that of the last place is kept, where the next search begins."""
+        place = b"".join(each.tobytes() for each in (at.rotation, at.translation, at.point))
+        found = self._last.get(place)
+        if found is None:
+            found = foundation_state(self.layer, self.moving, self.normals, at.rotation, at.translation, at.point)
+            self._last.clear()
+            self._last[place] = found
+        return found
 
 
 @dataclass(frozen=True, eq=False)

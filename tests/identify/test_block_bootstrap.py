@@ -70,3 +70,14 @@ def test_a_long_recording_takes_no_more_memory_than_a_part(
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 0.25 * COUNT * SIZE * 8
+
+
+def test_memory_is_put_back_sample_by_sample() -> None:
+    """x_k = ρ_k x_{k-1} + √(1 - ρ_k²) e_k, as the sum over all earlier e that it unrolls to."""
+    rng = np.random.default_rng(5)
+    keep, innovations = rng.uniform(0.1, 0.9, 6), rng.standard_normal((7, 3))
+    found = innovations.copy()
+    module._remember(found, keep, np.sqrt(1.0 - keep**2))
+    for k in range(7):
+        shares = [np.prod(keep[i:k]) * (np.sqrt(1.0 - keep[i - 1] ** 2) if i else 1.0) for i in range(k + 1)]
+        np.testing.assert_allclose(found[k], shares @ innovations[: k + 1], rtol=1e-12)

@@ -16,9 +16,10 @@ from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature, thickness_below
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads import settling as energy_balance_room
+from geocontact.loads import settling_potential
 from geocontact.loads.foundation import LAWS, Layer, layer_loads
 from geocontact.loads.settling import energy_balance, equilibrium, not_held, settle_along
-from geocontact.loads.settling_potential import NAMES, AxialLoad, Bed, coordinates_of, poses_of, total_at
+from geocontact.loads.settling_potential import NAMES, AxialLoad, Bed, coordinates_of, placed_at, poses_of, total_at
 from geocontact.loads.start_pose import lowest_places, pressing
 from tests.cli.calls import FEMUR, INSERT
 from tests.contact.sphere_on_layer import linear_force, logarithmic_force
@@ -156,3 +157,14 @@ def test_coordinates_are_poses_and_back() -> None:
     turn = Rotation.from_euler("Y", values[1, 3]) * Rotation.from_euler("X", values[1, 4])
     expected = turn * Rotation.from_euler("Z", values[1, 5])
     assert (poses_of(values, point)[1].rotation.inv() * expected).magnitude() < 1e-12
+
+
+def test_the_state_of_the_last_place_is_kept_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches begin where the one before ended; a place that differs in one digit is computed."""
+    layer, places = bed(slab(), ball(4), 2e-3), []
+    monkeypatch.setattr(settling_potential, "foundation_state", lambda *given: places.append(given) or object())
+    here, there = (placed_at(np.array([0.0, R - depth, 0.0, 0.0, 0.0, 0.0]), layer.point) for depth in (1e-4, 1.1e-4))
+    first = layer.state(here)
+    assert layer.state(here) is first and len(places) == 1
+    assert layer.state(there) is not first and len(places) == 2
+    assert layer.state(here) is not first and len(places) == 3

@@ -20,7 +20,6 @@ from geocontact.elastic_modulus.prediction import Prediction, predicted_force
 from geocontact.elastic_modulus.sensitivity import SensitivityRow, confounded
 from geocontact.elastic_modulus.surface_energy import SurfaceEnergy, surface_energy
 from geocontact.elastic_modulus.threshold_calibration import Calibration
-from geocontact.geometry.contact_area.pose_error import ENDS
 from geocontact.identify.identifiability import Identifiability
 from geocontact.io.recordings.area_table import FEWEST, AreaTable
 from geocontact.io.recordings.pose_draws import PoseDraws
@@ -103,6 +102,8 @@ class PoseModuli:
     @property
     def interval(self) -> tuple[float, float]:
         """95 % of the draws [Pa]."""
+        from geocontact.geometry.contact_area.pose_error import ENDS  # late: with its kernels
+
         low, high = np.quantile(self.drawn, ENDS)
         return float(low), float(high)
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.autocorrelation import Autocorrelation
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise
 
@@ -105,8 +106,13 @@ def _blackened(
     places = ((first[:, :, None] + np.arange(length)) % n).reshape(count, -1)[:, :n]
     signs = rng.choice([-1.0, 1.0], (count, blocks)).repeat(length, axis=1)[:, :n]
     noise = np.ascontiguousarray((innovations[places] * signs).T)  # a row per sample: steps through memory in order
-    new = np.sqrt(1.0 - keep**2)
-    for k in range(1, n):
-        noise[k] *= new[k - 1]
-        noise[k] += keep[k - 1] * noise[k - 1]
+    _remember(noise, keep, np.sqrt(1.0 - keep**2))
     return np.asarray(noise.T)
+
+
+@kernel
+def _remember(noise: Float[np.ndarray, "n b"], keep: Float[np.ndarray, " n-1"], new: Float[np.ndarray, " n-1"]) -> None:
+    """Each row becomes its share that is new and what is kept of the row before it, in place."""
+    for k in range(1, noise.shape[0]):
+        for b in range(noise.shape[1]):
+            noise[k, b] = noise[k, b] * new[k - 1] + keep[k - 1] * noise[k - 1, b]

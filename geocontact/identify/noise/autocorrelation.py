@@ -17,7 +17,7 @@ from math import exp
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.optimize import brentq
-from scipy.stats import t as student
+from scipy.special import stdtr, stdtrit
 
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.identify.noise.autoregressive import AutoregressiveNoise
@@ -60,10 +60,10 @@ class Autocorrelation:
         largest = float(spread.max())
         if largest <= 0.0:
             return 0.0
-        far = float(student.ppf(0.5 + 0.5 * level, self.freedom)) * largest
+        far = float(stdtrit(self.freedom, 0.5 + 0.5 * level)) * largest
 
         def missing(half: float) -> float:
-            inside = 2.0 * student.cdf(half / np.maximum(spread, 1e-300), self.freedom) - 1.0
+            inside = 2.0 * stdtr(self.freedom, half / np.maximum(spread, 1e-300)) - 1.0
             return float(self.weight @ inside) - level
 
         return float(brentq(missing, 0.0, 2.0 * far, rtol=1e-10))
@@ -100,13 +100,7 @@ def sandwich(
 ) -> Float[np.ndarray, "g p p"]:
     """Covariance of the least-squares estimates for each correlation time."""
     decay = np.exp(-np.diff(time)[:, None] / memory.tau)
-    past = np.zeros((len(memory.tau), jacobian.shape[1]))
-    middle = np.zeros((len(memory.tau), jacobian.shape[1], jacobian.shape[1]))
-    for k, row in enumerate(jacobian):
-        past = past * decay[k - 1][:, None] if k else past
-        cross = past[:, :, None] * row
-        middle += cross + cross.transpose(0, 2, 1) + np.outer(row, row)
-        past = past + row
+    middle = _correlated_products(decay, np.ascontiguousarray(jacobian, float))
     bread = spread(jacobian)
     return np.asarray(memory.variance[:, None, None] * (bread @ middle @ bread))
 
@@ -122,6 +116,27 @@ def _log_prior(time: Float[np.ndarray, " n"], tau: float) -> float:
     """Logarithm of the reference prior per log tau: half that of sum (rho h/tau)^2 / (1 - rho^2), rho = exp(-h/tau)."""
     h = np.diff(time) / tau
     return 0.5 * float(np.logaddexp.reduce(2.0 * (np.log(h) - h) - np.log(-np.expm1(-2.0 * h))))
+
+
+@kernel
+def _correlated_products(
+    decay: Float[np.ndarray, "n-1 g"], jacobian: Float[np.ndarray, "n p"]
+) -> Float[np.ndarray, "g p p"]:
+    """J'KJ of an Ornstein-Uhlenbeck noise of variance 1; `decay` is the correlation from each sample to the next."""
+    times, (n, p) = decay.shape[1], jacobian.shape
+    past, middle = np.zeros((times, p)), np.zeros((times, p, p))
+    for k in range(n):
+        for g in range(times):
+            for a in range(p):
+                if k > 0:
+                    past[g, a] *= decay[k - 1, g]
+            for a in range(p):
+                for b in range(p):
+                    crossed = past[g, a] * jacobian[k, b] + past[g, b] * jacobian[k, a]
+                    middle[g, a, b] += crossed + jacobian[k, a] * jacobian[k, b]
+            for a in range(p):
+                past[g, a] += jacobian[k, a]
+    return middle
 
 
 @kernel

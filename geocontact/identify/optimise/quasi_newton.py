@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float
 from scipy.optimize import minimize
-from scipy.stats import qmc
 
 from geocontact.data.parameter import Parameter
 from geocontact.identify.optimise.bounded_gauss_newton import ROUNDING, STEP
@@ -57,8 +56,22 @@ def spread_starts(parameters: Sequence[Parameter], count: int, seed: int = 0) ->
     if not free:
         return [{}]
     coordinates = Coordinates.of(free)
-    drawn = qmc.LatinHypercube(len(free), rng=seed).random(count)
+    drawn = latin_hypercube(len(free), count, seed)
     return [{}, *(dict(zip([p.name for p in free], map(float, coordinates.values(z)), strict=True)) for z in drawn)]
+
+
+def latin_hypercube(dimensions: int, count: int, seed: int) -> Float[np.ndarray, "n d"]:
+    """Points in the unit cube, one in each of `count` slices of each dimension.
+
+    McKay, Beckman and Conover (1979), Technometrics 21, 239. `scipy.stats.qmc.LatinHypercube` draws the same, but its
+    import takes half a second.
+    """
+    rng = np.random.default_rng(seed).spawn(1)[0]  # as scipy does
+    inside = rng.uniform(size=(count, dimensions))
+    slices = np.tile(np.arange(1, count + 1), (dimensions, 1))
+    for each in slices:
+        rng.shuffle(each)
+    return np.asarray((slices.T - inside) / count)
 
 
 def search(

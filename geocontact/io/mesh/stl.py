@@ -1,4 +1,4 @@
-"""STL, binary and ASCII: found whole by a check of our own, then read by trimesh.
+"""STL, binary and ASCII: found whole by a check of our own; then numpy reads binary records, trimesh reads text.
 
 Nothing is skipped and nothing is guessed: a count, a size or a keyword that does not agree refuses the file. Normals
 and attribute bytes are not used (exporters leave nan there for thin faces), the order of the vertices decides.
@@ -64,22 +64,12 @@ def read_stl(data: bytes, file: str) -> tuple[Float[np.ndarray, "n 3"], Int[np.n
 
     float32 from binary, float64 from ASCII: the precision the file carries. A binary header may start with "solid".
     """
-    corners = _read_binary(data, file) if _is_binary(data, file) else _read_ascii(data, file)
+    corners = _read_binary(data) if _is_binary(data, file) else _read_ascii(data, file)
     return corners, np.arange(len(corners), dtype=np.int64).reshape(-1, 3)
 
 
-def _read_binary(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
-    from trimesh.exchange.stl import load_stl_binary  # half a second
-
-    return _whole(load_stl_binary(BytesIO(data))["vertices"], (len(data) - HEAD) // RECORD.itemsize, file)
-
-
-def _whole(vertices: object, count: int, file: str) -> Float[np.ndarray, "n 3"]:
-    """What trimesh made of `count` facets."""
-    corners = np.asarray(vertices)
-    if len(corners) != 3 * count:
-        raise InputError(file, "", "trimesh read another number of facets than the file holds", _AGAIN)
-    return corners
+def _read_binary(data: bytes) -> Float[np.ndarray, "n 3"]:
+    return np.frombuffer(data, RECORD, offset=HEAD)["corners"].reshape(-1, 3)
 
 
 def _is_binary(data: bytes, file: str) -> bool:
@@ -119,6 +109,14 @@ def _read_ascii(data: bytes, file: str) -> Float[np.ndarray, "n 3"]:
                 blocks.append(_whole(load_stl_ascii(BytesIO(_one_keyword_a_line(words)))["vertices"], count, file))
     mesh_checks.require_count(face, mesh_checks.MAX_FACES, "faces", file)
     return np.concatenate(blocks)
+
+
+def _whole(vertices: object, count: int, file: str) -> Float[np.ndarray, "n 3"]:
+    """What trimesh made of `count` facets."""
+    corners = np.asarray(vertices)
+    if len(corners) != 3 * count:
+        raise InputError(file, "", "trimesh read another number of facets than the file holds", _AGAIN)
+    return corners
 
 
 def _solids(data: bytes, file: str) -> Iterator[tuple[int, int]]:

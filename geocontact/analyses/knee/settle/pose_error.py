@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
@@ -10,10 +11,12 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.analyses.knee.settle.equilibrium import Settled, SettleInputs
 from geocontact.analyses.knee.settle.options import SettleOptions
-from geocontact.geometry.contact_area.pose_error import PoseError
-from geocontact.loads.pressure_pose_error import PressureUncertainty
 from geocontact.loads.settling import settle_along
 from geocontact.loads.settling_potential import coordinates_of
+
+if TYPE_CHECKING:
+    from geocontact.geometry.contact_area.pose_error import PoseError
+    from geocontact.loads.pressure_pose_error import PressureUncertainty
 
 DRAWS, SEED = 40, 1
 
@@ -22,6 +25,9 @@ def settle_error(i: SettleInputs, o: SettleOptions, heaviest: int) -> PressureUn
     """Equilibria of drawn poses, and what is to be said of them; None without an error of the pose."""
     if o.pose_sd is None:
         return None
+    from geocontact.geometry.contact_area.pose_error import PoseError  # late: with its kernels
+    from geocontact.loads.pressure_pose_error import PressureUncertainty
+
     count = o.draws or DRAWS
     error = PoseError.normal(np.asarray(o.pose_sd), "fixed", count, SEED if o.seed is None else o.seed)
     columns: list[list[np.ndarray]] = []

@@ -38,13 +38,14 @@ from geocontact.data.plausible import BEARING
 from geocontact.geometry.contact_area.published import KneeRun
 from geocontact.identify.goodness_of_fit import MUCH, Doubt, GoodnessOfFit, of_range, of_size
 from geocontact.io.opensim.storage_writer import write_storage
-from geocontact.loads.pressure_pose_error import PressureUncertainty
 from geocontact.loads.settling import EnergyBalance, Frame, energy_balance, not_held, settle_along
 from geocontact.loads.settling_potential import NAMES, coordinates_of
 from geocontact.view.surfaces.vtp_series import PressureSeries, write_pressure_series
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from geocontact.loads.pressure_pose_error import PressureUncertainty
 
 
 MM, MM2, MPA = 1e3, 1e6, 1e-6
