@@ -124,9 +124,9 @@ class Resimulation:
         for k, start in enumerate(states[:-1]):
             span, changes = breaks[k : k + 2], CHANGE * np.eye(len(start))
             steps = max(FEWEST, int(np.ceil((span[1] - span[0]) / STEP)))
-            ends = [[self.after(start + sign * h, span, steps)[-1] for h in changes] for sign in (1.0, -1.0)]
+            ends = np.array([[self.after(start + sign * h, span, steps)[-1] for h in changes] for sign in (1.0, -1.0)])
             with np.errstate(invalid="ignore"):  # infinity less infinity
-                tangents.append(np.subtract(*ends).T / (2.0 * CHANGE))
+                tangents.append((ends[0] - ends[1]).T / (2.0 * CHANGE))
         return np.array(tangents)
 
     def _without_acceleration(self, x: Float[np.ndarray, "t x"]) -> Float[np.ndarray, "t s"]:
@@ -278,7 +278,7 @@ def certificate(
     }
     failed = tuple(words for words, passed in checks.items() if not passed)
     rate = float(np.log(growth) / (end - begin))
-    loop = tuple(float(abs(each[worst])) for each in (run, expected, bound))
+    loop = float(abs(run[worst])), float(abs(expected[worst])), float(bound[worst])
     sizes = force, moment, interval, window, *loop, growth, rate
     lengths = np.diff(again.motion.breaks)
     return Certificate(not failed, failed, *sizes, len(lengths), float(lengths.min()))
