@@ -43,11 +43,12 @@ def cache_folder() -> Path | None:
 
 def refusal(status: os.stat_result) -> str:
     """Why a file or folder is not used, "" where it may be; Windows' access lists are not looked at."""
-    if not hasattr(os, "getuid"):
-        return ""
-    if status.st_uid not in (0, os.getuid()):
-        return f"belongs to another user ({status.st_uid})"
-    return "may be written by others" if status.st_mode & 0o022 else ""
+    if sys.platform != "win32":
+        if status.st_uid not in (0, os.getuid()):
+            return f"belongs to another user ({status.st_uid})"
+        if status.st_mode & 0o022:
+            return "may be written by others"
+    return ""
 
 
 def usable_folder() -> Path | None:
