@@ -22,12 +22,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from benchmarks.machine import ROOT, as_json, stamp, write_results
 from benchmarks.one_core import pin
 
 FRAMES = 1001
 KEPT = ROOT / "benchmarks" / "results" / "peers_table.json"
+FACTORS = {"femur_r": 1.1, "tibia_r": 0.93}
+"""Of the person to whom the model is scaled."""
+COLUMNS = ("time", "tilt", "list", "turn", "tx", "ty", "tz", "hip_x", "hip_y", "hip_z", "knee", "ankle")
+TURNING = tuple(each for each in COLUMNS if each not in ("time", "tx", "ty", "tz"))
+BESIDE = {"list": 4.0, "turn": 7.0, "hip_x": 6.0, "hip_y": 9.0}
+"""Amplitudes [deg] of what the shipped swing keeps at zero."""
 ENGINES = ("warp (CPU), bounded to 4 mm + longest edge", "fcpw, bounded", "libigl", "open3d", "VTK implicit distance")
 """Rows of the table of distances, by how their names begin; ours come first."""
 
@@ -147,55 +154,81 @@ def all_jobs(folder: Path, frames: int) -> list[Job]:
     model = str(ROOT / "meshes" / "leg.osim")
     truth = swing(folder / "swing.mot", frames)
     command(folder, "markers", "swing.mot", "--model", model, "--out", "v")
-    still = ["--time", "0:0.05", "--scale", "femur_r=femur_r0/femur_r2", "--scale", "tibia_r=tibia_r0/tibia_r2"]
-    scale = ["scale", "v/markers.trc", "--model", model, "--mass", "30", *still, "--out", "s"]
     angles = ["ik", "v/markers.trc", "--model", model, "--out", "a"]
     moments = ["id", "a/ik.mot", "--model", model, "--out", "m"]
-    for words in (scale, angles, moments):  # what the tools read
+    for words in (angles, moments):  # what the tools read
         command(folder, *words)
-    centres = mass_centres(Path(model))
-
-    def moved(file: str) -> Callable[[str], float]:
-        return lambda _: float(1e3 * np.abs(mass_centres(folder / file) - centres).max())
 
     def turned(file: str) -> Callable[[str], float]:
-        return lambda _: float(np.abs(motion(folder / file)[:, 1:4] - truth[:, 1:4]).max())
+        return lambda _: angles_off(folder / file, truth)
 
     def pulled(_: str) -> float:
         own, theirs = motion(folder / "m" / "id.sto"), motion(folder / "m" / "opensim_id.sto")
         return float(np.abs(own - theirs)[:, 1:].max())
 
-    def tool(kind: str, setup: str, error: Callable[[str], float]) -> Side:
-        return Side(f"OpenSim {kind}", OPENSIM, [kind, *setup.split("/")], error)
-
-    def ours(words: list[str], error: Callable[[str], float]) -> Side:
-        return Side(words[0], OURS, words, error)
-
-    solids = [
-        fit_job(folder, "sphere", "sphere_r18.stl", 18.0),
-        fit_job(folder, "cylinder", "cylinder_r15_l40.stl", 15.0),
-    ]
     return [
-        Job(
-            "a scaled model",
-            "mass centres, mm",
-            ours(scale, moved("s/scaled.osim")),
-            tool("ScaleTool", "s/setup_scale.xml", moved("s/opensim_scaled.osim")),
-        ),
+        scale_job(folder, Path(model)),
         Job(
             f"angles of {frames} frames",
             "angles, deg",
-            ours(angles, turned("a/ik.mot")),
+            Side("ik", OURS, angles, turned("a/ik.mot")),
             tool("InverseKinematicsTool", "a/setup_ik.xml", turned("a/opensim_ik.mot")),
         ),
         Job(
             f"moments of {frames} frames",
             "between the two, N and N m",
-            ours(moments, pulled),
+            Side("id", OURS, moments, pulled),
             tool("InverseDynamicsTool", "m/setup_id.xml", pulled),
         ),
-        *solids,
+        fit_job(folder, "sphere", "sphere_r18.stl", 18.0),
+        fit_job(folder, "cylinder", "cylinder_r15_l40.stl", 15.0),
     ]
+
+
+def tool(kind: str, setup: str, error: Callable[[str], float]) -> Side:
+    """One of OpenSim's, with a set-up file that a command wrote."""
+    return Side(f"OpenSim {kind}", OPENSIM, [kind, *setup.split("/")], error)
+
+
+def scale_job(folder: Path, model: Path) -> Job:
+    """A model scaled to the markers of a person whose thigh and shank differ from it by known factors."""
+    person = stretched(model.read_text(encoding="utf-8"), FACTORS)
+    (folder / "person.osim").write_text(person, encoding="utf-8")
+    still = folder / "still.mot"
+    swing(still, 11)
+    command(folder, "markers", still.name, "--model", "person.osim", "--out", "p")
+    wanted = mass_centres(folder / "person.osim")
+    measured = [word for body in FACTORS for word in ("--scale", f"{body}={body}0/{body}2")]
+    words = ["scale", "p/markers.trc", "--model", str(model), "--mass", "30", "--time", "0:0.05", *measured]
+    words += ["--out", "s"]
+    command(folder, *words)
+
+    def moved(file: str) -> Callable[[str], float]:
+        return lambda _: float(1e3 * np.abs(mass_centres(folder / file) - wanted).max())
+
+    peer = tool("ScaleTool", "s/setup_scale.xml", moved("s/opensim_scaled.osim"))
+    return Job("a scaled model", "mass centres, mm", Side("scale", OURS, words, moved("s/scaled.osim")), peer)
+
+
+def stretched(model: str, factors: Mapping[str, float]) -> str:
+    """A model's text with lengths of some bodies multiplied: centres of mass, markers, joints towards the next body."""
+    place = (
+        r"((?:/bodyset/)%s</socket_parent(?:_frame)?>\s*<(?:location|translation)>|<Body name=\"%s\">.*?<mass_center>)"
+    )
+    for body, factor in factors.items():
+        model = re.sub(
+            f"{place % (body, body)}([^<]*)",
+            lambda found, by=factor: found[1] + " ".join(f"{by * float(each):.12g}" for each in found[2].split()),
+            model,
+        )
+    return model
+
+
+def angles_off(file: Path, truth: np.ndarray) -> float:
+    """Largest difference of any coordinate that turns from the truth's [deg], found by the names in the file."""
+    names = file.read_text(encoding="utf-8").partition("endheader\n")[2].splitlines()[0].split()
+    found = motion(file)
+    return max(float(np.abs(found[:, names.index(each)] - truth[:, COLUMNS.index(each)]).max()) for each in TURNING)
 
 
 def fit_job(folder: Path, shape: str, name: str, radius: float) -> Job:
@@ -239,13 +272,18 @@ def environment() -> dict[str, str]:
 
 
 def swing(file: Path, frames: int) -> np.ndarray:
-    """The shipped swing, drawn out to so many frames at 100 Hz, as a motion file; its values [s, deg, m]."""
+    """The shipped swing, drawn out to so many frames at 100 Hz by splines, as a motion file; its values [s, deg, m].
+
+    What it keeps at zero swings as well: once to and fro, from rest to rest.
+    """
     head, _, body = (ROOT / "meshes" / "leg_swing.mot").read_text(encoding="utf-8").partition("endheader\n")
     names, _, rows = body.partition("\n")
     values = np.loadtxt(rows.splitlines())
     wanted = np.linspace(values[0, 0], values[-1, 0], frames)
-    drawn = np.column_stack([np.interp(wanted, values[:, 0], column) for column in values.T])
+    drawn = CubicSpline(values[:, 0], values)(wanted)
     drawn[:, 0] = 0.01 * np.arange(frames)
+    for name, size in BESIDE.items():
+        drawn[:, COLUMNS.index(name)] += size * np.sin(np.pi * np.linspace(0.0, 1.0, frames)) ** 2
     lines = ["\t".join(f"{value:.9f}" for value in row) for row in drawn]
     head = re.sub(r"nRows=\d+", f"nRows={frames}", head)
     file.write_text(f"{head}endheader\n{names}\n" + "\n".join(lines) + "\n", encoding="utf-8")

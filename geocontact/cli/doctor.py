@@ -8,6 +8,7 @@ import subprocess
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
+from geocontact.dynamics import code_cache
 from geocontact.view.surfaces import child
 
 PATIENCE = 8.0  # s for all child processes together
@@ -108,6 +109,7 @@ def doctor() -> int:
     """
     print(f"geocontact {_version('geocontact')}, Python {platform.python_version()}, {platform.platform()}")
     print(f"{os.cpu_count()} cores; compiled kernels are kept in {_cache_folder()}")
+    print(code_cache.words())
     troubles = _troubles()
     for feature in FEATURES:
         trouble, installed = troubles[feature.name], _version(feature.package)

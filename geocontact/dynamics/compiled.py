@@ -2,38 +2,40 @@
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import os
+import platform
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
-from functools import partial
-from pathlib import Path
+from functools import cache, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.dynamics.machine_code import cache_folder, machine_code
+from geocontact.dynamics.code_cache import keep, kept, private_place
+from geocontact.dynamics.machine_code import machine_code, refuse_sparse
 
 if TYPE_CHECKING:
     from casadi import Function
 
 
 class Buffered:
-    """Called with arrays, gives arrays that the next call overwrites; outputs must be dense.
+    """Called with arrays, gives arrays that the next call overwrites; ValueError for a sparse output.
 
     Parameters
     ----------
     function
         Of columns and matrices; these are passed and given column by column.
     compiled
-        Whether to run machine code where there is some, with the same results: see `code`.
+        Whether to run machine code where there is some, with results equal but for signs of zero: see `code`.
     """
 
     def __init__(self, function: Function, *, compiled: bool = False) -> None:
+        refuse_sparse(function)
         self.function = function
         self._inputs = [np.zeros(function.nnz_in(k)) for k in range(function.n_in())]
         self._outputs = [np.zeros(function.nnz_out(k)) for k in range(function.n_out())]
@@ -71,7 +73,9 @@ class Buffered:
         return found
 
 
-FLAGS = ("-O1", "-fPIC", "-shared")
+FLAGS = ("-O1", "-ffp-contract=off", "-fPIC", "-shared")
+"""No fused operations, which some processors have: they would round otherwise than Python does."""
+_LOADED: dict[str, ctypes.CDLL] = {}
 
 
 def compiler() -> str | None:
@@ -83,29 +87,56 @@ def compiler() -> str | None:
     )
 
 
-def library_of(source: str) -> Path | None:
-    """The library of some C; None where there is no compiler or it fails.
+def library_of(source: str) -> ctypes.CDLL | None:
+    """The library of some C, loaded; None where there is no compiler, it fails or libraries may not be loaded.
 
-    It is kept in `cache_folder` and found again by the source, the compiler and its flags.
+    It is kept in memory and in the cache, and found again by the source, the compiler with its version and flags, and
+    the machine; a damaged one is built anew.
     """
     program = compiler()
+    try:
+        made_by = "" if program is None else _version(program)
+    except (OSError, subprocess.SubprocessError):
+        return None
     if program is None:
         return None
-    folder = cache_folder()
-    library = folder / f"{hashlib.sha256(chr(0).join((source, program, *FLAGS)).encode()).hexdigest()}.so"
-    if not library.is_file():
-        try:
-            _build(program, source, folder, library)
-        except (OSError, subprocess.CalledProcessError):
-            return None
-    return library
+    parts = (source, program, made_by, sys.platform, platform.machine(), *FLAGS)
+    name = f"{hashlib.sha256(chr(0).join(parts).encode()).hexdigest()}.so"
+    if name not in _LOADED:
+        content = kept(name)
+        library = None if content is None else _loaded(content)
+        if library is None:
+            content = _built(program, source)
+            library = None if content is None else _loaded(content)
+            if content is None or library is None:
+                return None
+            keep(name, content)
+        _LOADED[name] = library
+    return _LOADED[name]
 
 
-def _build(program: str, source: str, folder: Path, library: Path) -> None:
-    """Compile beside the place and move there: another process may do the same at the same time."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder) as place:
-        code, made = Path(place) / "f.c", Path(place) / "f.so"
-        code.write_text(source, encoding="utf-8")
-        subprocess.run([program, *FLAGS, "-o", str(made), str(code), "-lm"], check=True, capture_output=True)
-        made.replace(library)
+@cache
+def _version(program: str) -> str:
+    return subprocess.run([program, "--version"], check=True, capture_output=True, text=True, timeout=20.0).stdout
+
+
+def _built(program: str, source: str) -> bytes | None:
+    try:
+        with private_place() as place:
+            code, made = place / "f.c", place / "f.so"
+            code.write_text(source, encoding="utf-8")
+            subprocess.run([program, *FLAGS, "-o", str(made), str(code), "-lm"], check=True, capture_output=True)
+            return made.read_bytes()
+    except (OSError, subprocess.SubprocessError):
+        return None
+
+
+def _loaded(content: bytes) -> ctypes.CDLL | None:
+    """A library, which stays when the file that it is read from is deleted."""
+    try:
+        with private_place() as place:
+            file = place / "f.so"
+            file.write_bytes(content)
+            return ctypes.CDLL(str(file))
+    except OSError:
+        return None

@@ -1,10 +1,10 @@
 """CasADi functions of scalars as machine code, by the LLVM that numba brings: no compiler is needed.
 
 CasADi interprets one operation after another; here each is one instruction of LLVM's language, in the same order and
-with the same rounding, so that results are equal to the last bit. Functions of some hundred thousand operations are cut
-into pieces, because a compiler's time grows faster than the length of what it sees at once; values that a later piece
-needs are stored where CasADi's own interpreter stores them. Code is made without optimisation: for operations without
-branches it gains a fifth and costs ten times as much.
+with the same rounding, so that results are equal but for signs of zero (fmin, fmax, copysign). Functions of some
+hundred thousand operations are cut into pieces, because a compiler's time grows faster than the length of what it sees
+at once; values that a later piece needs are stored where CasADi's own interpreter stores them. Code is made without
+optimisation: for operations without branches it gains a fifth and costs ten times as much.
 
 A step of a prosthetic stance (137,764 operations) is translated in 1.3 CPU s and read again in 0.02; a call takes 0.05
 ms, CasADi's own 0.6.
@@ -14,23 +14,20 @@ from __future__ import annotations
 
 import ctypes
 import hashlib
-import os
 import struct
-import sys
-import tempfile
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from geocontact.dynamics.code_cache import keep, kept
 
 if TYPE_CHECKING:
     from casadi import Function
 
 PIECE = 500
 """Operations that are compiled at once."""
-VERSION = "1"
+VERSION = "2"
 """Version of this translation: code that an earlier one kept is not found."""
 
 ARITHMETIC = {"ADD": "fadd", "SUB": "fsub", "MUL": "fmul", "DIV": "fdiv"}
@@ -54,16 +51,6 @@ CALLED = {
 DECIDED = ("NOT", "AND", "OR", "SIGN", "IF_ELSE_ZERO")
 OWN = {"SQRT": "llvm.sqrt.f64", "FABS": "llvm.fabs.f64"}
 """What is an instruction of the processor."""
-
-
-def cache_folder() -> Path:
-    """$GEOCONTACT_CACHE, else the user's folder for such files."""
-    named = os.environ.get("GEOCONTACT_CACHE")
-    if named:
-        return Path(named)
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "geocontact"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "geocontact"
 
 
 @dataclass(frozen=True)
@@ -90,12 +77,18 @@ class MachineCode:
         return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(self.address)
 
 
-def machine_code(function: Function) -> MachineCode | None:
-    """The function's machine code, kept in `cache_folder` and found again by all that it is made of.
+MOST = 64
+"""Functions that a process keeps in memory: those asked for last."""
+_IN_MEMORY: dict[str, MachineCode] = {}
 
-    None where an operation has no translation, or where this machine may not compile. Outputs must be dense. What is
-    kept carries a sum of itself: a damaged file is made anew, and where nothing can be kept it is made each time.
+
+def machine_code(function: Function) -> MachineCode | None:
+    """The function's machine code, kept in memory and in the cache, and found again by all that it is made of.
+
+    None where an operation has no translation, or where this machine may not compile. ValueError for a sparse output.
+    Where nothing can be kept between runs it is made in each.
     """
+    refuse_sparse(function)
     if not function.is_a("SXFunction"):
         return None
     target = _target()
@@ -104,20 +97,37 @@ def machine_code(function: Function) -> MachineCode | None:
     machine, key = target
     text = function.serialize()
     name = hashlib.sha256("\0".join((VERSION, str(PIECE), key, text)).encode()).hexdigest()
-    file = cache_folder() / f"{name}.o"
-    code = _kept(file)
-    if code is None:
-        source = translated(function)
-        if source is None:
-            return None
-        code = _emitted(source, machine)
-        _keep(file, code)
-    return _placed(code, function.sz_w())
+    found = _IN_MEMORY.get(name) or _read_or_made(function, machine, f"{name}.o")
+    if found is not None:
+        _IN_MEMORY.pop(name, None)
+        _IN_MEMORY[name] = found
+        for earliest in list(_IN_MEMORY)[:-MOST]:
+            _IN_MEMORY.pop(earliest, None)
+    return found
+
+
+def refuse_sparse(function: Function) -> None:
+    """ValueError for an output with zeros that are not stored: its numbers would be taken for others."""
+    for k in range(function.n_out()):
+        if not function.sparsity_out(k).is_dense():
+            raise ValueError(f"output {function.name_out(k)} of {function.name()} is sparse: densify it")
+
+
+def _read_or_made(function: Function, machine: Any, file: str) -> MachineCode | None:
+    code = kept(file)
+    if code is not None and (found := _placed(code, function.sz_w())) is not None:
+        return found
+    source = translated(function)
+    code = None if source is None else _emitted(source, machine)
+    found = None if code is None else _placed(code, function.sz_w())
+    if code is not None and found is not None:
+        keep(file, code)
+    return found
 
 
 @cache
 def _target() -> tuple[Any, str] | None:
-    """The machine to compile for, and its name; none of its extensions, so that a cache may be shared."""
+    """The machine to compile for, and its name; none of its extensions: fused operations would round otherwise."""
     import llvmlite
     from casadi import CasadiMeta
     from llvmlite import binding
@@ -131,41 +141,29 @@ def _target() -> tuple[Any, str] | None:
     return machine, f"{machine.triple} llvmlite {llvmlite.__version__} casadi {CasadiMeta.version()}"
 
 
-def _emitted(source: str, machine: Any) -> bytes:
+def _emitted(source: str, machine: Any) -> bytes | None:
+    """Machine code; None where LLVM refuses."""
     from llvmlite import binding
 
-    return bytes(machine.emit_object(binding.parse_assembly(source)))
-
-
-def _placed(code: bytes, work: int) -> MachineCode:
-    """Machine code in memory, ready to run."""
-    from llvmlite import binding
-
-    machine = binding.Target.from_default_triple().create_target_machine(opt=0, jit=True)
-    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), machine)  # owns the machine that it is given
-    engine.add_object_file(binding.ObjectFileRef.from_data(code))
-    engine.finalize_object()
-    return MachineCode(engine.get_function_address("whole"), work, engine)
-
-
-def _kept(file: Path) -> bytes | None:
     try:
-        with file.open("rb") as stream:
-            content = stream.read()
-    except OSError:
+        return bytes(machine.emit_object(binding.parse_assembly(source)))
+    except RuntimeError:
         return None
-    code = content[32:]
-    return code if hashlib.sha256(code).digest() == content[:32] else None
 
 
-def _keep(file: Path, code: bytes) -> None:
-    """Write beside the place and move there: another process may do the same at the same time."""
-    with suppress(OSError):
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=file.parent) as place:
-            made = Path(place) / "code.o"
-            made.write_bytes(hashlib.sha256(code).digest() + code)
-            made.replace(file)
+def _placed(code: bytes, work: int) -> MachineCode | None:
+    """Machine code in memory, ready to run; None where LLVM cannot read it or memory may not be run."""
+    from llvmlite import binding
+
+    try:
+        machine = binding.Target.from_default_triple().create_target_machine(opt=0, jit=True)
+        engine = binding.create_mcjit_compiler(binding.parse_assembly(""), machine)  # owns the machine it is given
+        engine.add_object_file(binding.ObjectFileRef.from_data(code))
+        engine.finalize_object()
+        address = engine.get_function_address("whole")
+    except RuntimeError:
+        return None
+    return MachineCode(address, work, engine) if address else None
 
 
 class _Operation(NamedTuple):

@@ -1,14 +1,13 @@
 """The loop over steps in C, around a step that is machine code: inputs by polynomials, the wanted times by cubics.
 
 What `simulate.Stepper` does in Python, statement by statement, its splines in the form of SciPy's: with and without a
-compiler results are equal to the last bit. In Python the loop costs as much as the steps.
+compiler results are equal but for signs of zero. In Python the loop costs as much as the steps.
 """
 
 from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
@@ -162,14 +161,13 @@ class Looped:
 
 
 def step_loop(code: MachineCode, states: int, coordinates: int) -> StepLoop | None:
-    """The loop of one step; None where there is no compiler, or its library is damaged: it is built anew next time."""
+    """The loop of one step; None where there is no compiler, or its library has no such loop."""
     library = library_of(SOURCE)
     if library is None:
         return None
     try:
         return StepLoop(library, code, states, coordinates)
-    except OSError:
-        library.unlink(missing_ok=True)
+    except AttributeError:
         return None
 
 
@@ -185,11 +183,11 @@ class StepLoop:
     states, coordinates
         Sizes of the state and of the part of it whose errors are summed.
 
-    OSError for a library that cannot be loaded.
+    AttributeError for a library without the loop.
     """
 
-    def __init__(self, library: Path, code: MachineCode, states: int, coordinates: int) -> None:
-        self._run = ctypes.CDLL(str(library)).simulate
+    def __init__(self, library: ctypes.CDLL, code: MachineCode, states: int, coordinates: int) -> None:
+        self._run = library.simulate
         self._run.restype = ctypes.c_int
         self._run.argtypes = [ctypes.c_void_p] * 13
         self.code = code

@@ -10,18 +10,26 @@ import numpy as np
 import pytest
 
 from benchmarks.peers_table import (
+    COLUMNS,
+    FACTORS,
     FITTED,
+    TURNING,
     Job,
     Side,
+    angles_off,
     fit_job,
     mass_centres,
     measure,
     motion,
     ratios,
     renewed,
+    scale_job,
+    stretched,
     swing,
     text_of,
 )
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def side(name: str, whole: list[float], again: list[float]) -> Side:
@@ -41,8 +49,56 @@ def test_the_swing_is_drawn_out(tmp_path: Path) -> None:
     read = motion(tmp_path / "swing.mot")
     np.testing.assert_allclose(read, drawn, atol=1e-9)
     assert read.shape == (401, 12) and read[-1, 0] == pytest.approx(4.0)
-    shipped = motion(Path(__file__).resolve().parents[2] / "meshes" / "leg_swing.mot")
-    np.testing.assert_allclose(read[::4, 1:], shipped[:, 1:], atol=1e-8)
+    shipped = motion(ROOT / "meshes" / "leg_swing.mot")
+    moving = [k for k, column in enumerate(shipped.T) if k and np.ptp(column) > 0.0]
+    assert len(moving) == 4
+    np.testing.assert_allclose(read[::4, moving], shipped[:, moving], atol=1e-8)
+    assert np.ptp(read[:, [COLUMNS.index(each) for each in TURNING]], axis=0).min() > 2.0, "every angle moves"
+
+
+def test_the_drawn_out_swing_has_no_spikes(tmp_path: Path) -> None:
+    """Its accelerations change from frame to frame by little of their range; by straight lines they are spikes."""
+    drawn = swing(tmp_path / "swing.mot", 1001)[:, 1:]
+    second = np.diff(drawn, n=2, axis=0)
+    of = np.ptp(second, axis=0) > 1e-9
+    assert of.sum() == 8
+    assert (np.abs(np.diff(second, axis=0)).max(axis=0) < 0.1 * np.ptp(second, axis=0))[of].all()
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_an_angle_that_is_wrong_is_an_error(tmp_path: Path, name: str) -> None:
+    truth = swing(tmp_path / "swing.mot", 21)
+    assert angles_off(tmp_path / "swing.mot", truth) < 1e-8
+    truth[7, COLUMNS.index(name)] += 0.25
+    assert angles_off(tmp_path / "swing.mot", truth) == pytest.approx(0.25)
+
+
+def test_a_stretched_model_is_longer_in_what_belongs_to_the_body() -> None:
+    model = (ROOT / "meshes" / "leg.osim").read_text(encoding="utf-8")
+    changed = [
+        (a, b)
+        for a, b in zip(model.splitlines(), stretched(model, {"femur_r": 2.0}).splitlines(), strict=True)
+        if a != b
+    ]
+    assert [b.split("<location>")[-1].split("<")[0] for _, b in changed if "location" in b] == [
+        "0.2 0 0.06",
+        "-0.16 0.1 0",
+        "0 -0.4 0.16",
+        "0.1 -0.2 -0.14",
+    ]
+    assert any("<mass_center>0 -0.3 0<" in b for _, b in changed) and any(
+        "<translation>0 -0.8 0<" in b for _, b in changed
+    )
+    assert len(changed) == 6
+
+
+@pytest.mark.slow
+def test_scaling_is_to_a_person_of_other_size(tmp_path: Path) -> None:
+    """What the command writes is the person's; a model that is left as it was is 15 mm off."""
+    job = scale_job(tmp_path, ROOT / "meshes" / "leg.osim")
+    assert job.ours.error("") < 1e-4
+    (tmp_path / "s" / "scaled.osim").write_text((ROOT / "meshes" / "leg.osim").read_text(encoding="utf-8"))
+    assert job.ours.error("") == pytest.approx(150.0 * (FACTORS["femur_r"] - 1.0), abs=1e-6)
 
 
 def test_mass_centres_are_read_in_the_order_of_the_file(tmp_path: Path) -> None:
@@ -69,24 +125,25 @@ def test_a_side_that_fails_stops_the_measurement(tmp_path: Path) -> None:
 
 
 def test_figures_of_the_page_are_those_of_the_results() -> None:
-    root = Path(__file__).resolve().parents[2]
-    told = json.loads((root / "benchmarks" / "results" / "peers_table.json").read_text(encoding="utf-8"))["figures"]
-    page = (root / "docs" / "reference" / "peers.md").read_text(encoding="utf-8")
+    told = json.loads((ROOT / "benchmarks" / "results" / "peers_table.json").read_text(encoding="utf-8"))["figures"]
+    page = (ROOT / "docs" / "reference" / "peers.md").read_text(encoding="utf-8")
     rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| `")]
     assert len(rows) == len(told["jobs"]) == 5
-    for (_, _, whole, whole_ratio, again, again_ratio, _), job in zip(rows, told["jobs"], strict=True):
+    for (_, _, whole, whole_ratio, again, again_ratio, error), job in zip(rows, told["jobs"], strict=True):
         for cell, ratio, key in ((whole, whole_ratio, "whole"), (again, again_ratio, "again")):
             medians = [f"{np.median(job[side][key]):.2f}" for side in ("ours", "peer")]
             assert (cell, ratio) == (" / ".join(medians), f"{job[f'ratio_{key}']:.1f}")
+        sizes = {float(each) for each in re.findall(r"\d[\d.]*(?:e-?\d+)?", error)}
+        assert sizes == {float(f"{job[side]['off']:.1g}") for side in ("ours", "peer")}
     slower = [a / b for job in told["jobs"] for a, b in zip(job["ours"]["whole"], job["peer"]["whole"], strict=True)]
     assert 2.9 <= min(slower) < 3.0 and round(max(slower)) == 7
-    for text in (page, (root / "README.md").read_text(encoding="utf-8")):
+    for text in (page, (ROOT / "README.md").read_text(encoding="utf-8")):
         assert "take 2.9 to 7 times as long" in text
-    ratios_by_name = {row["engine"].replace(",", "").split()[0]: row["ratio"] for row in told["distances"]}
+    found = {row["engine"].replace(",", "").split()[0]: row["ratio"] for row in told["distances"]}
     words = {"warp": "warp 1.9", "fcpw": "fcpw 2.8", "libigl": "libigl 27", "open3d": "open3d\n27", "VTK": "VTK 182"}
     for name, said in words.items():
         assert said.replace("\n", " ") in page.replace("\n", " ")
-        assert float(said.split()[1]) == pytest.approx(ratios_by_name[name], rel=0.03)
+        assert float(said.split()[1]) == pytest.approx(found[name], rel=0.03)
 
 
 def test_a_row_that_is_run_again_stands_in_place_of_the_earlier_one() -> None:

@@ -90,6 +90,13 @@ def test_doctor_names_the_fix_for_what_is_missing(
     assert ("not known" in last) == ("no answer" in said)
 
 
+def test_doctor_says_what_the_cache_of_machine_code_holds(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(doctor, "FEATURES", ())
+    monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path))
+    (tmp_path / "a.o").write_bytes(bytes(2_400_000))
+    assert f"machine code of body models is kept in {tmp_path}: 1 files, 2 of 500 MB\n" in call("doctor").out
+
+
 def test_doctor_asks_again_when_the_others_have_ended(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """What is slow beside others and answers alone is no matter."""
     mark = tmp_path / "asked"

@@ -67,6 +67,7 @@ TWO: dict[str, tuple[Callable[[SX, SX], SX], Callable[[float, float], float]]] =
 @pytest.fixture(autouse=True)
 def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path / "cache"))
+    module._IN_MEMORY.clear()
 
 
 def _found(function: Function, rows: list[tuple[float, ...]]) -> np.ndarray:
@@ -134,10 +135,12 @@ def test_code_is_kept_and_made_anew_where_it_is_damaged(tmp_path: Path, monkeypa
     content, translations = file.read_bytes(), []
     true = module.translated
     monkeypatch.setattr(module, "translated", lambda f: translations.append(f) or true(f))
+    module._IN_MEMORY.clear()
     assert Buffered(function, compiled=True)(np.array([1.0]))[0][0] == math.cos(1.0)
     assert not translations, "read again"
     for damaged in (b"", content[:40], content[:-1], bytes([content[0] ^ 1]) + content[1:]):
         file.write_bytes(damaged)
+        module._IN_MEMORY.clear()
         assert Buffered(function, compiled=True)(np.array([1.0]))[0][0] == math.cos(1.0)
         assert file.read_bytes() == content
     assert len(translations) == 4

@@ -14,10 +14,10 @@ from geocontact.contact.bristle_friction import bristle_force, deflection_rate
 from geocontact.data.multibody.joint import prismatic
 from geocontact.data.multibody.model import Body, Multibody
 from geocontact.dynamics import compiled as code
+from geocontact.dynamics import machine_code
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import SphereLaw, sole_wrench
-from geocontact.dynamics.step_loop import SOURCE
 from geocontact.dynamics.tree import tree_of
 from geocontact.geometry.shapes import HalfSpace
 from geocontact.loads.sphere_set import SphereSet
@@ -267,9 +267,16 @@ def test_derivatives_by_parameters() -> None:
     )
 
 
+def _forget() -> None:
+    """As in a new process."""
+    machine_code._IN_MEMORY.clear()
+    code._LOADED.clear()
+
+
 def test_all_ways_of_evaluation_agree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """CasADi's own, machine code in Python's loop and in C's; both kinds of code are kept and used again."""
     monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path))
+    _forget()
     equations = equations_of_motion(tree_of(pendulum((0.7, 0.4), (1.3, 2.1))))
     start, time = (np.array([1.0, 0.2]), np.zeros(2), NONE), np.linspace(0.0, 1.0, 5)
     steppers = [Stepper(equations, machine_code=False)]
@@ -279,13 +286,16 @@ def test_all_ways_of_evaluation_agree(tmp_path: Path, monkeypatch: pytest.Monkey
         assert steppers[-1].compiled and steppers[-1].loop is not None
         made = {each: each.stat().st_mtime_ns for each in tmp_path.iterdir()}
         assert sorted(each.suffix for each in made) == [".o", ".so"]
-        assert Stepper(equations).loop is not None
-        assert {each: each.stat().st_mtime_ns for each in tmp_path.iterdir()} == made
-        monkeypatch.setenv("GEOCONTACT_CACHE", str(tmp_path / "other"))
-        library = code.library_of(SOURCE)
-        assert library is not None
+        for forgotten in (False, True):
+            if forgotten:
+                _forget()
+            assert Stepper(equations).loop is not None
+            assert {each: each.stat().st_mtime_ns for each in tmp_path.iterdir()} == made
+        (library,) = tmp_path.glob("*.so")
         library.write_bytes(b"damaged")
-        assert Stepper(equations).loop is None and not library.exists()
+        _forget()
+        steppers.append(Stepper(equations))
+        assert steppers[-1].loop is not None and library.read_bytes() != b"damaged"
     for without in (lambda: None, lambda: "/nowhere/cc"):
         monkeypatch.setattr(code, "compiler", without)
         steppers.append(Stepper(equations))

@@ -20,7 +20,7 @@ from cyclopts import App
 import geocontact as gc
 from geocontact.cli.main import app
 from geocontact.cli.suggestions import commands
-from geocontact.dynamics.machine_code import cache_folder
+from geocontact.dynamics.code_cache import cache_folder
 from tests.house.first_screens import ROOT, missing
 from tests.house.shell_blocks import DOCUMENTS, GUIDES, calls_of, files_of, name_of, shell_blocks
 from tests.house.warm_command import warm_command

@@ -32,7 +32,6 @@ class Followed:
         first, last = self.time[0] - 1e-6, self.time[-1] + 1e-6
         if time.min() < first or time.max() > last:
             raise ValueError(f"runs from {self.time[0]:g} to {self.time[-1]:g} s, markers to {time.max():g} s")
-        from scipy.interpolate import CubicSpline  # late: a fifth of a second
 
         return np.asarray(CubicSpline(self.time, self.values)(time))
 
