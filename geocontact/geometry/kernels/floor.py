@@ -44,8 +44,8 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
         low = max(low, -_farthest(far))
         for c in range(3):
             s = slot[faces[f, c]]
-            if s < 0 or low >= bar or not use:
-                continue
+            if s < 0 or low >= bar or not use or (c > 0 and s == slot[i]) or (c > 1 and s == slot[j]):
+                continue  # a plane that two corners share says the same twice
             if len(above) == 0:
                 margin = MARGIN * max(e0, max(e1, e2))
                 low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k]))
