@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geocontact.geometry.kernels.quarter import compacted, divided
+from geocontact.geometry.kernels.quarter import divided
 from meshes.simple_shapes import sphere
 
 
@@ -48,12 +48,3 @@ def test_quarters_are_those_of_numpy(count, beyond):
     assert np.array_equal(found[0], again)
     for ours, theirs in zip(found[1:], wanted[1:], strict=True):
         np.testing.assert_allclose(ours[order], theirs, rtol=1e-14, atol=0.0)
-
-
-@pytest.mark.parametrize("count", [0, 1, 7, 400])
-def test_only_points_in_use_are_kept_in_their_order(count):
-    vertices, faces = sphere(20.0, 8)
-    faces = faces[np.random.default_rng(count).permutation(len(faces))[:count]]
-    used, renumbered = compacted(faces, len(vertices))
-    assert np.array_equal(used, np.unique(faces))
-    assert np.array_equal(used[renumbered], faces)

@@ -11,15 +11,19 @@ from jaxtyping import Bool, Float, Int, Int8
 from geocontact.geometry.inside_outside import resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, move, signed_distances
 from geocontact.geometry.kernels.clip import fraction_below
-from geocontact.geometry.kernels.quarter import compacted, divided
+from geocontact.geometry.kernels.quarter import divided
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 
 
 def compact(faces: Int[np.ndarray, "k 3"], points: Distances) -> tuple[Int[np.ndarray, "k 3"], Distances]:
     """Only the points these faces use, and the faces renumbered to them."""
-    used, renumbered = compacted(faces, len(points.distance))
-    return renumbered, points[used]
+    named = np.zeros(len(points.distance), bool)
+    named[faces] = True
+    used = np.flatnonzero(named)
+    place = np.empty(len(named), np.int64)
+    place[used] = np.arange(len(used))
+    return place[faces], points[used]
 
 
 def quartered(

@@ -12,27 +12,6 @@ SPREAD = 0x9E3779B97F4A7C15  # 2^64 over the golden ratio: neighbouring keys fal
 
 
 @kernel
-def compacted(faces, count):
-    """Numbers (u,), growing, of those of `count` points that faces (k, 3) use, and the faces renumbered to them."""
-    place = np.full(count, -1)
-    for f in range(len(faces)):
-        for c in range(3):
-            place[faces[f, c]] = 0
-    used = np.empty(min(count, 3 * len(faces)), np.int64)
-    n = 0
-    for i in range(count):
-        if place[i] == 0:
-            used[n] = i
-            place[i] = n
-            n += 1
-    renumbered = np.empty(faces.shape, np.int64)
-    for f in range(len(faces)):
-        for c in range(3):
-            renumbered[f, c] = place[faces[f, c]]
-    return used[:n].copy(), renumbered
-
-
-@kernel
 def divided(faces, points, distance, slot, across, beyond):
     """Quarters of all faces, and the middles of their edges, numbered behind the points as they are met.
 
