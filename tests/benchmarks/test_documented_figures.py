@@ -329,6 +329,15 @@ def test_speed_of_the_whole_command() -> None:
     assert f"took {fcpw:.2f} and {warp:.2f} s" in text
 
 
+def test_a_frame_of_a_long_run() -> None:
+    told = results("long_run")
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    figures, aim = told["figures"], told["figures"]["aim_ms_a_frame"]
+    assert told["asked"]["frames"] >= 300 and len(figures["ms_a_frame"]) >= 3
+    assert f"A frame of a long run takes {figures['least_ms_a_frame']:.0f} CPU ms" in text
+    assert (f"the aim of {aim:.0f} ms is missed" in text) == (figures["least_ms_a_frame"] > aim)
+
+
 def test_memory_of_large_meshes() -> None:
     told = results("large_meshes")["figures"]
     text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())

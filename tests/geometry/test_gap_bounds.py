@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from geocontact.geometry.contact_area import evolution as depth
@@ -74,6 +75,29 @@ def test_depth_lies_within_its_bounds(seed):
     turned = (rest.rotation.apply(BODIES[one][0]) + shift / MM, BODIES[one][1])
     lower, upper = reference.smallest_distance(BODIES[other], turned)
     assert lower - 1e-6 <= found.min_distance / MM <= upper + 1e-6, f"{one} on {other}"
+
+
+@pytest.mark.parametrize("offset", [-4.0, -0.5, -0.02])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_depth_in_a_block_is_that_of_linear_programmes(seed, offset):
+    """Inside a convex body the signed distance is the largest height over its planes: an LP for each face of a ball."""
+    block, ball = surface(BODIES["block"]), surface(shapes.sphere(20.0, 3))
+    rest, out = touching(block, ball, seed)
+    rotation, shift = rest.rotation.as_matrix(), np.asarray(rest.translation) + offset * MM * out
+    found = ContactPair(block, ball, Settings(thresholds=(0.3 * MM,))).at(rotation, shift).max_penetration_fixed / MM
+    normal = np.concatenate([np.eye(3), -np.eye(3)])
+    level = (normal @ block.vertices.T).max(axis=1)
+    in_block = (ball.vertices - shift) @ rotation
+    heights = (in_block[ball.faces] @ normal.T - level) / MM  # (face, corner, plane)
+    corners = heights.max(axis=2).min(axis=1)
+    near = np.flatnonzero(corners - ball.edge_length.max(axis=1) / MM < corners.min())
+    weights, free = {"A_eq": [[1, 1, 1, 0]], "b_eq": [1]}, [(0, None)] * 3 + [(None, None)]
+    lowest = min(
+        linprog([0, 0, 0, 1], np.column_stack([heights[f].T, -np.ones(6)]), np.zeros(6), bounds=free, **weights).fun
+        for f in near
+    )
+    assert corners.min() - lowest > 1e-6, "the deepest point is a corner: nothing is searched for"
+    assert found == pytest.approx(-lowest, abs=2e-6)
 
 
 @pytest.mark.parametrize("name", ["cup", "insert", "femur", "block"])

@@ -11,13 +11,9 @@ from jaxtyping import Bool, Float, Int, Int8
 from geocontact.geometry.inside_outside import resolve_inside_outside
 from geocontact.geometry.kernels.batch import chunk_spheres, move, signed_distances
 from geocontact.geometry.kernels.clip import fraction_below
+from geocontact.geometry.kernels.quarter import divided
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
-
-# the four quarters of a triangle, from its corners 0 1 2 and the middles 3 4 5 of the edges opposite to them
-QUARTERS = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2], [3, 4, 5]])
-ROUNDING = 1e-12  # m; no distance is missed because of rounding
-OPPOSITE = np.array([[1, 2], [2, 0], [0, 1]])
 
 
 def compact(faces: Int[np.ndarray, "k 3"], points: Distances) -> tuple[Int[np.ndarray, "k 3"], Distances]:
@@ -38,21 +34,9 @@ def quartered(
     A new point is measured up to the longest edge of its faces plus `beyond` [m], or as far as its neighbours allow
     (distance is 1-Lipschitz).
     """
-    ends = np.sort(faces[:, OPPOSITE], axis=2).reshape(-1, 2)
-    key = ends[:, 0] * np.int64(len(points.distance)) + ends[:, 1]
-    _, first, which = np.unique(key, return_index=True, return_inverse=True)
-    start, end = ends[first].T
-    length = np.linalg.norm(points.points[ends[:, 0]] - points.points[ends[:, 1]], axis=1)
-    longest = np.zeros(len(first))
-    np.maximum.at(longest, which, np.repeat(length.reshape(-1, 3).max(axis=1), 3))
-    known = np.where(points.slot >= 0, points.distance, np.inf)
-    nearby = np.minimum(known[start], known[end]) + 0.5 * length[first]
-    limit = np.minimum(beyond + longest, nearby * (1.0 + 1e-9) + ROUNDING)
-    middle = 0.5 * (points.points[start] + points.points[end])
-    across = 0.5 * (points.across[start] + points.across[end])
-    new = measure(other, middle, limit, across)
-    corners = np.concatenate([faces, len(points.distance) + which.reshape(-1, 3)], axis=1)
-    return corners[:, QUARTERS].reshape(-1, 3), points + new
+    p = points
+    quarters, middle, limit, across = divided(faces, p.points, p.distance, p.slot, p.across, beyond)
+    return quarters, points + measure(other, middle, limit, across)
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,6 +30,8 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     far = np.empty((3, 3))
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        if max(signed[i], max(signed[j], signed[k])) == np.inf:
+            continue
         e0, e1, e2 = edges[f, 0], edges[f, 1], edges[f, 2]
         low = max(signed[i] - max(e1, e2), signed[j] - max(e2, e0), signed[k] - max(e0, e1))  # 1-Lipschitz
         if low >= bar:
@@ -44,11 +46,11 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
         low = max(low, -_farthest(far))
         for c in range(3):
             s = slot[faces[f, c]]
-            if s < 0 or low >= bar or not use:
-                continue
+            if s < 0 or low >= bar or not use or (c > 0 and s == slot[i]) or (c > 1 and s == slot[j]):
+                continue  # a plane that two corners share says the same twice
             if len(above) == 0:
                 margin = MARGIN * max(e0, max(e1, e2))
-                low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k]))
+                low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k], bar))
                 continue
             cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
             radius = reach + size_of(leaves, place[s])
@@ -63,9 +65,10 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
 
 
 @inner
-def _over_plane_nearby(tree, place, margin, v, a, b, c):
+def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
     """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle.
 
+    It is -inf where it would lie below `bar`, which is known before the whole neighbourhood has been looked at.
     a, b, c are the signed distances of its corners: one that is outside and above says that what is free is outside.
     """
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
@@ -74,13 +77,14 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c):
     mz = (v[0, 2] + v[1, 2] + v[2, 2]) / 3.0
     h = (mx - cx) * nx + (my - cy) * ny + (mz - cz) * nz
     cx, cy, cz = mx - h * nx, my - h * ny, mz - h * nz
-    radius = 0.0
+    radius, lowest = 0.0, np.inf
     for corner in range(3):
         dx, dy, dz = v[corner, 0] - cx, v[corner, 1] - cy, v[corner, 2] - cz
         h = dx * nx + dy * ny + dz * nz
         radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
+        lowest = min(lowest, h)
     radius += margin
-    rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius)
+    rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius, min(radius, lowest - bar))
     low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
     if low == -np.inf:
         return low

@@ -52,17 +52,17 @@ def size_of(leaves, place):
 @kernel
 def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
     """What `height_within` gives; when `signed`, infinite as well where what is higher is not outside."""
-    height = height_within(tree, cx, cy, cz, nx, ny, nz, radius)
+    height = height_within(tree, cx, cy, cz, nx, ny, nz, radius, radius)
     if signed and height < np.inf and not free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
         return np.inf
     return height
 
 
 @inner
-def height_within(tree, cx, cy, cz, nx, ny, nz, radius):
+def height_within(tree, cx, cy, cz, nx, ny, nz, radius, most):
     """Height over the plane through c across the unit vector n that the surface reaches within `radius` of c.
 
-    Infinite where it reaches as far as the radius, and where n is zero.
+    Infinite where it reaches as far as `most`, which is not above the radius, and where n is zero.
     """
     if nx == 0.0 and ny == 0.0 and nz == 0.0:
         return np.inf
@@ -87,8 +87,10 @@ def height_within(tree, cx, cy, cz, nx, ny, nz, radius):
         for j in range(fill[leaf]):
             if square[j] <= r2:
                 height = max(height, _highest(leaves, leaf * LEAF + j, cx, cy, cz, nx, ny, nz, radius))
+        if height >= most:
+            return np.inf
     height += ROUND * radius
-    return np.inf if height >= radius else height
+    return np.inf if height >= most else height
 
 
 @inner
