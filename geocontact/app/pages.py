@@ -37,6 +37,7 @@ class Shared:
     def __init__(self, queue: Queue) -> None:
         self.queue = queue
         self._uploads: dict[int, Path] = {}
+        self._pages: dict[int, Path] = {}
         self._keys = count(1)
 
     def upload_to(self, folder: Path) -> str:
@@ -44,6 +45,19 @@ class Shared:
         key = next(self._keys)
         self._uploads[key] = folder
         return f"/upload/{key}"
+
+    def serve(self, page: Path) -> str:
+        """Address of a page that the window wrote."""
+        key = next(self._keys)
+        self._pages[key] = page
+        return f"/page/{key}"
+
+    def page(self, key: int) -> Path:
+        """The page at an address."""
+        found = self._pages.get(key)
+        if found is None or not found.is_file():
+            raise HTTPException(404)
+        return found
 
     async def take(self, key: int, name: str, request: Request) -> str:
         """Keep a file that was dropped; its path."""
@@ -80,6 +94,10 @@ def add_pages(queue: Queue) -> None:
     @site.get("/result/{number}/{name:path}")
     def _result(number: int, name: str) -> FileResponse:
         return FileResponse(shared.file(number, name), headers={"content-security-policy": SANDBOX})
+
+    @site.get("/page/{key}")
+    def _page(key: int) -> FileResponse:
+        return FileResponse(shared.page(key), headers={"content-security-policy": SANDBOX})
 
     @ui.page("/")
     def _start() -> None:
@@ -122,7 +140,8 @@ def form_page(shared: Shared, command: str, sampled: bool) -> None:
     with element("main"):
         text("h1", command)
         text("p", summary(entry_of(command).load_options()))
-        Workplace(queue, form, out, shared.upload_to(Path(f"{out}-files")))
+        files = Path(f"{out}-files")
+        Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
 
 
 def free_folder(folder: Path, command: str) -> Path:

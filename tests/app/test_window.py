@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 
 from geocontact.analyses.catalogue import ENTRIES
@@ -26,14 +27,12 @@ if TYPE_CHECKING:
 
 PATIENCE = 300.0  # s on a busy machine
 QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
-LONG = ("shoulder study", "prosthesis calibrate", "prosthesis design", "sit-to-stand calibrate")
 COMMANDS = sorted(each.command for each in ENTRIES if each.command)
 
 
 def marked(command: str) -> object:
-    """Quick ones run with every change."""
-    marks = [] if command in QUICK else [pytest.mark.slow]
-    return pytest.param(command, marks=[*marks, *([pytest.mark.long] if command in LONG else [])])
+    """Quick ones run with every change, the others before a release."""
+    return pytest.param(command, marks=[] if command in QUICK else [pytest.mark.slow, pytest.mark.long])
 
 
 def slug(command: str) -> str:
@@ -215,6 +214,75 @@ def test_a_file_that_is_chosen_lies_in_a_folder_of_the_run(window: Window, tmp_p
     there = Path(tab.locator('[name="mesh"]').input_value())
     assert there.read_bytes() == cup.read_bytes() and there.parent.name.endswith("-files")
     until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('a cup.stl')", 20.0)
+    tab.close()
+
+
+def drop(tab: Page, name: str, file: Path) -> str:
+    """What the page says of a file that was chosen for a field."""
+    tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
+    tab.locator(f'.field:has([name="{name}"]) .pick input').set_input_files(file)
+    said = f"document.querySelector('.field:has([name=\"{name}\"]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes({json.dumps(file.name)})", 60.0)
+    return str(tab.evaluate(said))
+
+
+def test_a_surface_is_looked_at_and_its_unit_offered_not_taken(window: Window) -> None:
+    """Faces and sides as the 50-byte records of the file have them; the page turns it once a unit is chosen."""
+    tab = window.tab("form/fit")
+    cup = sample_folder() / "cup_r24.stl"
+    said = drop(tab, "mesh", cup)
+    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
+    corners = np.frombuffer(cup.read_bytes(), record, offset=84)["corners"].reshape(-1, 3)
+    sides = np.ptp(corners, axis=0)
+    assert f"{len(corners) // 3} triangles" in said and " × ".join(f"{side:.4g}" for side in sides) in said
+    assert f"mm, then it is {np.linalg.norm(sides):.3g} mm across" in said
+    unit = tab.locator('[name="unit"]')
+    assert unit.input_value() == ""
+    tab.get_by_role("button", name="show cup_r24.stl in 3-D").click()
+    until(tab, "document.querySelector('.content').textContent.includes('choose unit first')", 20.0)
+    tab.get_by_role("button", name="use mm as unit").click()
+    until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('--unit=mm')", 20.0)
+    assert unit.input_value() == "mm"
+    tab.get_by_role("button", name="show cup_r24.stl in 3-D").click()
+    frame = tab.frame_locator(".picture iframe")
+    assert "coordinates in mm" in frame.locator("body").inner_text(timeout=60_000)
+    tab.close()
+
+
+def test_markers_of_a_recording_are_compared_with_the_model(window: Window, tmp_path: Path) -> None:
+    """A marker less than the model has, and a gap."""
+    names = [f"{body}{k}" for body in ("pelvis", "femur_r", "tibia_r", "foot_r") for k in range(4)]
+    rows = "\n".join(
+        "\t".join([str(i + 1), f"{0.01 * i:.2f}", *("" if (i, k) == (0, 3) else f"{i + k}" for k in range(45))])
+        for i in range(10)
+    )
+    head = (
+        "PathFileType\t4\t(X/Y/Z)\tfew.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n100\t100\t10\t15\tmm\n"
+    )
+    named = "Frame#\tTime\t" + "\t\t\t".join(names[1:]) + "\n\t\t" + "\t".join("XYZ"[k % 3] for k in range(45)) + "\n"
+    few = tmp_path / "few.trc"
+    few.write_text(f"{head}{named}\n{rows}\n", encoding="utf-8")
+    tab = window.tab("form/ik")
+    said = drop(tab, "markers", few)
+    assert (
+        "10 frames, 0 to 0.09 s, 100 Hz" in said and "15 markers: pelvis1, pelvis2" in said and "pelvis2 10.0%" in said
+    )
+    said = drop(tab, "model", sample_folder() / "leg.osim")
+    assert "4 bodies: pelvis, femur_r, tibia_r, foot_r" in said
+    found = tab.locator('.field:has([name="markers"]) .content').text_content() or ""
+    assert "15 of the model's 16 markers are in the recording; it lacks pelvis0" in found
+    tab.close()
+
+
+def test_a_mat_is_recognised_and_what_is_no_mesh_is_said_at_once(window: Window, tmp_path: Path) -> None:
+    tab = window.tab("form/mat")
+    said = drop(tab, "frames", sample_folder() / "mat_thigh_16x8" / "frames.csv")
+    assert "recording of a pressure mat (grid)" in said and "layout" in said
+    broken = tmp_path / "broken.stl"
+    broken.write_bytes(b"\0" * 84)
+    said = drop(tab, "surface", broken)
+    assert "no triangles" in said or "no faces" in said, said
+    assert tab.locator(".content .refused").count() == 1
     tab.close()
 
 
