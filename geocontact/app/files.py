@@ -1,4 +1,4 @@
-"""What a file holds, found by the reader for it in a process of its own, so that a large or damaged one stops nothing."""
+"""What a file holds, found by its reader in a process of its own: a large or damaged file stops nothing."""
 
 from __future__ import annotations
 
@@ -56,11 +56,14 @@ def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]
         done = subprocess.run(
             command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=patience, check=False
         )
+        why = f"its reader ended with {done.returncode}"
     except subprocess.TimeoutExpired:
-        return [Content(wrong=f"not looked at: reading lasts more than {patience:g} s") for _ in paths]
-    if done.returncode:
-        return [Content(wrong=f"not looked at: the reader ended with {done.returncode}") for _ in paths]
-    return [Content(**each) for each in json.loads(done.stdout)]
+        done, why = None, f"reading lasts more than {patience:g} s"
+    if done is not None and done.returncode == 0:
+        return [Content(**each) for each in json.loads(done.stdout)]
+    if len(paths) > 1:  # by themselves, so that one costs the others nothing
+        return [content for path in paths for content in contents([path], patience)]
+    return [Content(wrong=f"{path.name}: not looked at, {why}") for path in paths]
 
 
 def write_page(surface: Path, unit: str, out: Path) -> str:
@@ -81,6 +84,8 @@ def content_of(path: Path) -> Content:
             _reader(path)(path, found)
         except InputError as error:
             found.wrong = str(error)
+        except OSError as error:
+            found.wrong = f"{path.name}: {error.strerror}"
     found.warnings = list(dict.fromkeys(str(each.message) for each in caught))
     for lines in (found.facts, found.warnings):
         lines[:] = [line.replace(str(path), path.name) for line in lines]
