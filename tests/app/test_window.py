@@ -168,6 +168,27 @@ def test_a_wrong_input_is_said_at_its_field(window: Window) -> None:
     tab.close()
 
 
+def test_a_form_takes_the_place_of_the_start_page(window: Window) -> None:
+    """Without loading anew; address, title and focus go with it, and Back leads to the start page."""
+    tab = window.tab()
+    tab.evaluate("window.mark = 1")
+    tab.get_by_role("link", name="try the sample of elbow design").click()
+    tab.wait_for_selector(".field")
+    until(tab, "location.pathname + location.search === '/form/elbow.design?sample=1'", 20.0)
+    assert tab.title() == "elbow design – geocontact" and tab.evaluate("window.mark") == 1
+    assert tab.evaluate("document.activeElement.textContent") == "elbow design"
+    assert tab.locator('[name="limit"]').input_value() == "5" and tab.locator(".card").count() == 0
+    tab.go_back()
+    tab.wait_for_selector(".card")
+    assert tab.title() == "geocontact" and tab.locator(".field").count() == 0
+    with tab.context.expect_page() as other:  # a key of the browser keeps its meaning
+        tab.get_by_role("link", name="open the form of area", exact=True).click(modifiers=["ControlOrMeta"])
+    other.value.wait_for_selector(".field")
+    assert other.value.url.endswith("/form/area") and tab.locator(".card").count() > 40
+    other.value.close()
+    tab.close()
+
+
 def test_fields_are_enabled_when_they_have_an_effect(window: Window) -> None:
     tab = window.tab("form/area")
     tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
