@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 PATIENCE = 300.0  # s on a busy machine
 QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
+RESULTS_OF_SPEED = {"gap benchmark": ["benchmark.json", "benchmark.md"]}
+"""Files that hold the date and how long the cases took, which is one of the results there."""
 COMMANDS = sorted(each.command for each in ENTRIES if each.command)
 
 
@@ -45,13 +47,18 @@ def run_words(words: list[str], folder: Path) -> None:
 
 
 def fill(tab: Page, form: Form) -> None:
-    """Everything that a form holds, as a hand does."""
+    """Everything that a form holds, as a hand does: a field that needs another one when that is filled in."""
     tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
-    for one in form.fields:
-        value = form.values.get(one.name)
+    left, end = [one for one in form.fields if one.name in form.values], time.monotonic() + 60.0
+    while left:
+        one = left.pop(0)
         field = tab.locator(f'[name="{one.name}"]')
-        if value is None:
+        if field.is_disabled():
+            assert time.monotonic() < end, f"{one.name} stays disabled"
+            left.append(one)
+            tab.wait_for_timeout(50)
             continue
+        value = form.values[one.name]
         if one.kind == "flag":
             field.set_checked(bool(value))
         elif one.kind == "choice":
@@ -101,7 +108,7 @@ def test_a_form_filled_by_hand_gives_the_numbers_of_the_command(command: str, wi
     run_words([*expected[:-1], f"--out={twin}"], window.folder)
     before, after = results_of(Path(out)), results_of(twin)
     assert len(before) > 1 and before.keys() == after.keys()
-    assert differing(before, after, Path(out), twin) == []
+    assert differing(before, after, Path(out), twin) == RESULTS_OF_SPEED.get(command, [])
     if (Path(out) / "report.html").is_file():
         frame = tab.frame_locator("iframe")
         assert frame.locator("body").inner_text(timeout=60_000).strip()

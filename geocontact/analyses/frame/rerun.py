@@ -15,8 +15,8 @@ from geocontact.data.errors import InputError
 from geocontact.io.text.file_preflight import open_text, read_json
 
 REMEDY = f"name the {RUN} that a command or `Result.write` left with its results"
-TIMES = ("seconds", "cpu_seconds", "frames_per_second", "samples_per_second_of_one_core", "date")
-"""Keys of files of JSON that hang on when a run was made and how fast the machine was."""
+TIMES = ("seconds", "cpu_seconds", "frames_per_second", "samples_per_second_of_one_core")
+"""Keys of files of JSON that hang on how fast the machine was."""
 TIMED = ("cpu [s]", "wall [s]", "seconds [s]")
 """Columns of tables that do."""
 _UNIT = re.compile(r" \[[^\]]*\]$")
@@ -100,7 +100,7 @@ def differing(before: Mapping[str, str], after: Mapping[str, str], old: Path, ne
 
 
 def _alike(old: Path, new: Path) -> bool:
-    """Whether two files differ in nothing but when and how fast they were made."""
+    """Whether two files differ in nothing but how fast they were made."""
     if not (old.is_file() and new.is_file()):
         return False
     if old.suffix == ".csv":
