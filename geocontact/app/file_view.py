@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 from nicegui import run as aside
+from nicegui import ui
 from nicegui.element import Element
 
 from geocontact.app.elements import element, text
@@ -93,30 +95,34 @@ class FileView:
                 text("li", f"warning: {line}")
             if content.wrong:
                 text("li", content.wrong, "refused")
-        unit = self._unit_of(one)
-        if unit is not None and content.kind == SURFACE and not content.wrong:
+        units = self._units_of(one)
+        if units and content.kind == SURFACE and not content.wrong:
             with element("div", "links"):
-                self._offer(unit, content)
-                self._picture(unit, path, content)
+                self._offer(units, path, content)
+                self._picture(units, path)
 
-    def _offer(self, unit: Field, content: Content) -> None:
-        """Buttons that choose a unit; nothing is chosen without them."""
+    def _offer(self, units: list[Field], path: Path, content: Content) -> None:
+        """Buttons that choose a unit, of all files where none is chosen yet; nothing is chosen without them."""
+
+        def choose(unit: str) -> None:
+            field = units[-1] if not self.form.value(units[-1]) else units[0]
+            script = f"const e = document.querySelector('[name={json.dumps(field.name)}]'); e.value = '{unit}';"
+            ui.run_javascript(f"{script} e.dispatchEvent(new Event('change', {{ bubbles: true }}));")
+
         for each in content.units:
-            if each in unit.one.choices:
-                script = f"const e = document.querySelector('[name={json.dumps(unit.name)}]'); e.value = '{each}';"
-                button = text("button", f"use {each}", type="button", aria_label=f"use {each} as {unit.label}")
-                change = "e.dispatchEvent(new Event('change', { bubbles: true }));"
-                button.on("click", js_handler=f"() => {{ {script} {change} }}")
+            if all(each in one.one.choices for one in units):
+                button = text("button", f"use {each}", type="button", aria_label=f"use {each} for {path.name}")
+                button.on("click", partial(choose, each))
 
-    def _picture(self, unit: Field, path: Path, content: Content) -> None:
+    def _picture(self, units: list[Field], path: Path) -> None:
         button = text("button", "show in 3-D", type="button", aria_label=f"show {path.name} in 3-D")
         said = text("span", "", "why", role="status")
         place = element("div", "picture")
 
         async def show() -> None:
-            chosen = str(self.form.value(unit))
+            chosen = next(filter(None, (str(self.form.value(one)) for one in units)), "")
             if not chosen:
-                said.text = f"choose {unit.label} first"
+                said.text = f"choose the {units[-1].label} first"
                 return
             out = self._pages / f"{path.stem}_surface.html"
             said.text = "…"
@@ -130,11 +136,10 @@ class FileView:
 
         button.on("click", show)
 
-    def _unit_of(self, one: Field) -> Field | None:
-        """The field for the unit of a file: one of its own, else that of all."""
+    def _units_of(self, one: Field) -> list[Field]:
+        """Fields for the unit of a file: one of its own before that of all."""
         named = {each.name: each for each in self.form.fields if each.kind == "choice"}
-        wanted = (f"unit_{one.name}", f"{one.name}_unit", "unit")
-        return next((named[name] for name in wanted if name in named), None)
+        return [named[name] for name in (f"unit_{one.name}", f"{one.name}_unit", "unit") if name in named]
 
     def _in_common(self, content: Content) -> list[str]:
         """Markers of a recording beside those of a model in another field."""

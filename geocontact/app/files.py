@@ -134,7 +134,7 @@ def _surface(path: Path, found: Content) -> None:
     diagonal = float(np.linalg.norm(high - low))
     found.units = fitting_units(diagonal)
     if found.units:
-        across = (f"{unit}, then it is {1e3 * diagonal * LENGTH[unit]:.3g} mm across" for unit in found.units)
+        across = (f"{unit}, then it is {1e3 * diagonal * LENGTH[unit]:.4g} mm across" for unit in found.units)
         found.facts.append(f"the unit may be {'; or '.join(across)}")
 
 

@@ -42,7 +42,7 @@ def test_units_are_offered_that_make_the_size_usual(unit: str, tmp_path: Path) -
     file.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + faces)
     found = content_of(file)
     assert found.units[0] == unit and "4 triangles" in found.facts
-    assert f"{unit}, then it is {40.0 * np.sqrt(3.0):.3g} mm across" in said(found)
+    assert f"{unit}, then it is {40.0 * np.sqrt(3.0):.4g} mm across" in said(found)
     file.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in 1e6 * corners) + faces)
     assert content_of(file).units == []
 
