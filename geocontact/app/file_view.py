@@ -11,9 +11,10 @@ from nicegui import run as aside
 from nicegui import ui
 from nicegui.element import Element
 
+from geocontact.analyses.frame.file_content import MODEL, SURFACE, Content, markers_in_common
 from geocontact.app.elements import element, text
 from geocontact.app.fields import Field
-from geocontact.app.files import MODEL, SURFACE, Content, contents, markers_in_common, write_page
+from geocontact.app.files import contents, write_page
 from geocontact.app.form_view import FieldRow, FormView
 
 Known = tuple[Path, int, int]
@@ -65,7 +66,7 @@ class FileView:
         new = list(dict.fromkeys(each for some in files.values() for each in some if each not in self._known))
         if new:
             found = await aside.io_bound(contents, [path for path, *_ in new])
-            self._known |= dict(zip(new, found, strict=True))
+            self._known |= dict(zip(new, found or [], strict=True))
 
     def _files(self, one: Field) -> tuple[Known, ...]:
         """Files of a field that are there."""

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geocontact.app.files import Content, content_of, contents, markers_in_common, write_page
+from geocontact.analyses.frame.file_content import Content, content_of, markers_in_common
+from geocontact.app.files import contents, write_page
 from geocontact.cli.demo import sample_folder
 from tests.trial_checks.as_c3d import write_c3d
 
