@@ -20,7 +20,7 @@ PAGE = "--page"
 
 def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]:
     """Content of each file, in their order."""
-    command = [sys.executable, "-m", __name__, *map(str, paths)]
+    command = [sys.executable, "-P", "-m", __name__, *map(str, paths)]
     try:
         done = subprocess.run(
             command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=patience, check=False
@@ -37,7 +37,7 @@ def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]
 
 def write_page(surface: Path, unit: str, out: Path) -> str:
     """Write the page of a surface, which turns it in 3-D; why it cannot be written, "" where it is."""
-    command = [sys.executable, "-m", __name__, PAGE, str(surface), unit, str(out)]
+    command = [sys.executable, "-P", "-m", __name__, PAGE, str(surface), unit, str(out)]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False)
     if done.returncode:
         return f"no page: the process that writes it ended with {done.returncode}"
