@@ -33,6 +33,7 @@ class FieldRow:
     def __init__(self, one: Field, form: Form, upload: str, changed: Callable[[], None]) -> None:
         self.one, self._form, self._changed = one, form, changed
         self.inputs: list[Element] = []
+        self.touched = False
         with element("div", "field") as self.row:
             label = text("label", f"{one.label}{' (required)' if one.one.required else ''}")
             with element("div", "in"):
@@ -106,6 +107,7 @@ class FieldRow:
 
     def _set(self, value: str | bool) -> None:
         self._form.values[self.one.name] = value
+        self.touched = True
         self._changed()
 
     def _set_unit(self, unit: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import count
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from fastapi import HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse
 from nicegui import app as site
 from nicegui import ui
+from nicegui.element import Element
 
 from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
@@ -37,6 +39,7 @@ class Shared:
     def __init__(self, queue: Queue) -> None:
         self.queue = queue
         self._uploads: dict[int, Path] = {}
+        self._pages: dict[int, Path] = {}
         self._keys = count(1)
 
     def upload_to(self, folder: Path) -> str:
@@ -44,6 +47,19 @@ class Shared:
         key = next(self._keys)
         self._uploads[key] = folder
         return f"/upload/{key}"
+
+    def serve(self, page: Path) -> str:
+        """Address of a page that the window wrote."""
+        key = next(self._keys)
+        self._pages[key] = page
+        return f"/page/{key}"
+
+    def page(self, key: int) -> Path:
+        """The page at an address."""
+        found = self._pages.get(key)
+        if found is None or not found.is_file():
+            raise HTTPException(404)
+        return found
 
     async def take(self, key: int, name: str, request: Request) -> str:
         """Keep a file that was dropped; its path."""
@@ -81,10 +97,14 @@ def add_pages(queue: Queue) -> None:
     def _result(number: int, name: str) -> FileResponse:
         return FileResponse(shared.file(number, name), headers={"content-security-policy": SANDBOX})
 
+    @site.get("/page/{key}")
+    def _page(key: int) -> FileResponse:
+        return FileResponse(shared.page(key), headers={"content-security-policy": SANDBOX})
+
     @ui.page("/")
     def _start() -> None:
         _begin("geocontact")
-        start_page(queue)
+        start_page(shared)
 
     @ui.page("/form/{slug}")
     def _form(slug: str, sample: int = 0) -> None:
@@ -92,19 +112,21 @@ def add_pages(queue: Queue) -> None:
         if command not in samples.SAMPLES:
             raise HTTPException(404)
         _begin(command)
-        form_page(shared, command, bool(sample))
+        with element("main"):
+            form_page(shared, command, bool(sample))
 
 
-def start_page(queue: Queue) -> None:
+def start_page(shared: Shared) -> None:
     """What somebody has leads to the analysis for it."""
     known = {each.command: each for each in ENTRIES if each.command}
-    with element("main"):
+    queue = shared.queue
+    with element("main") as main:
         text("h1", "I have …")
         for what, commands in samples.START.items():
             text("h2", what)
             with element("div", "have"):
                 for command in commands:
-                    _card(command, summary(known[command].load_options()))
+                    _card(shared, main, command, summary(known[command].load_options()))
         text("h2", "Recent results")
         _recent(queue)
 
@@ -119,10 +141,10 @@ def form_page(shared: Shared, command: str, sampled: bool) -> None:
         for earlier in one.before:
             _run_before(queue, earlier)
     out = free_folder(queue.folder, command)
-    with element("main"):
-        text("h1", command)
-        text("p", summary(entry_of(command).load_options()))
-        Workplace(queue, form, out, shared.upload_to(Path(f"{out}-files")))
+    text("h1", command, tabindex="-1")
+    text("p", summary(entry_of(command).load_options()))
+    files = Path(f"{out}-files")
+    Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
 
 
 def free_folder(folder: Path, command: str) -> Path:
@@ -139,7 +161,7 @@ def earlier_runs(folder: Path) -> list[Run]:
 
 def _begin(title: str) -> None:
     """Title, style and head of a page."""
-    ui.page_title(f"{title} – geocontact" if title != "geocontact" else title)
+    ui.page_title(_titled(title))
     ui.add_css(HERE / "style.css")
     ui.add_body_html(f"<script>{(HERE / 'script.js').read_text(encoding='utf-8')}</script>")
     with element("header", "top"):
@@ -148,14 +170,31 @@ def _begin(title: str) -> None:
         text("span", "runs on this machine only")
 
 
-def _card(command: str, words: str) -> None:
-    slug = command.replace(" ", ".")
+def _titled(name: str) -> str:
+    return f"{name} – geocontact" if name != "geocontact" else name
+
+
+def _card(shared: Shared, main: Element, command: str, words: str) -> None:
     with element("div", "card"):
-        link(command, f"/form/{slug}")
+        _to_form(shared, main, command, command, False)
         text("p", words)
         with element("div", "links"):
-            link("open the form", f"/form/{slug}", aria_label=f"open the form of {command}")
-            link("try the sample", f"/form/{slug}?sample=1", aria_label=f"try the sample of {command}")
+            _to_form(shared, main, command, "open the form", False, aria_label=f"open the form of {command}")
+            _to_form(shared, main, command, "try the sample", True, aria_label=f"try the sample of {command}")
+
+
+def _to_form(shared: Shared, main: Element, command: str, words: str, sampled: bool, **attributes: str) -> None:
+    """A link to a form, which takes the place of what is on the page: loading all anew takes three times as long."""
+    address = f"/form/{command.replace(' ', '.')}{'?sample=1' if sampled else ''}"
+
+    def show() -> None:
+        main.clear()
+        with main:
+            form_page(shared, command, sampled)
+            ui.run_javascript(f"arrive(...{json.dumps([address, _titled(command)])})")
+
+    made = link(words, address, **attributes)
+    made.on("click", show, js_handler="(e) => { if (plain(e)) { e.preventDefault(); emit(); } }")
 
 
 def _recent(queue: Queue) -> None:

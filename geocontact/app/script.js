@@ -17,3 +17,11 @@ for (const kind of ['dragover', 'dragleave', 'drop']) document.addEventListener(
   row.classList.toggle('over', kind === 'dragover');
   if (kind === 'drop') send(pick, e.dataTransfer.files);
 });
+const plain = e => !(e.ctrlKey || e.metaKey || e.shiftKey || e.altKey || e.button);
+const arrive = (address, title) => {
+  history.pushState(null, '', address);
+  document.title = title;
+  scrollTo(0, 0);
+  document.querySelector('h1')?.focus();
+};
+addEventListener('popstate', () => location.reload());

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from geocontact.app import calls
 from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form, shown
+from geocontact.app.file_view import FileView
 from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
 from geocontact.app.study import study_of
@@ -36,9 +38,15 @@ class Workplace:
         Folder for the results.
     upload
         Address that takes files.
+    files
+        Folder that they are kept in, with pages of surfaces.
+    serve
+        Address of a page that was written there.
     """
 
-    def __init__(self, queue: Queue, form: Form, out: Path, upload: str) -> None:
+    def __init__(
+        self, queue: Queue, form: Form, out: Path, upload: str, files: Path, serve: Callable[[Path], str]
+    ) -> None:
         self.queue, self.form, self.out = queue, form, out
         self.words: list[str] = []
         self._dirty = True
@@ -46,6 +54,7 @@ class Workplace:
         with element("div", "work"):
             with element("div", "fields"):
                 self.view = FormView(form, upload, self._changed)
+                self.files = FileView(self.view, queue.folder, files, serve)
             with element("div", "side"):
                 self._beside()
         self.pages = element("div", "pages")
@@ -132,6 +141,7 @@ class Workplace:
         if self._dirty:
             self._dirty = False
             self._say()
+            background_tasks.create(self.files.look(), name="files of a form")
         for run in ended:
             if run.message and run.words == self.words:
                 self.missing.text = self.view.refresh(run.message, only_touched=False)

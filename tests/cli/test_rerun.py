@@ -57,14 +57,29 @@ def test_several_motions_are_compared_folder_by_folder(tmp_path: Path) -> None:
     assert done(call("rerun", out)).out.splitlines()[-1] == "8 of 8 files of the results are equal"
 
 
-def test_the_time_a_run_took_is_no_difference(tmp_path: Path) -> None:
+@pytest.mark.parametrize("time", ["seconds", "cpu_seconds", "frames_per_second"])
+def test_the_time_a_run_took_is_no_difference(time: str, tmp_path: Path) -> None:
+    """In files of JSON and in columns of tables; every other value is one, and a column that one run has not."""
     old, new = tmp_path / "old", tmp_path / "new"
+    tables = {"c.csv": "x,wall [s]\n1,{}\n", "d.csv": "x,wall [s]\n{},2\n", "e.csv": "x,cpu [s],z{}\n1,2,3\n"}
     for folder, seconds, value in ((old, 1.0, 3), (new, 2.0, 3)):
         folder.mkdir()
-        written(folder / "a.json", json.dumps({"seconds": seconds, "value": value}))
-        written(folder / "b.json", json.dumps({"seconds": seconds, "value": seconds}))
-    hashes = [{name: digest(folder / name) for name in ("a.json", "b.json")} for folder in (old, new)]
-    assert differing(*hashes, old, new) == ["b.json"]
+        written(folder / "a.json", json.dumps({time: seconds, "value": value}))
+        written(folder / "b.json", json.dumps({time: seconds, "value": seconds}))
+        for name, text in tables.items():
+            written(folder / name, text.format(seconds))
+    hashes = [{name: digest(folder / name) for name in ("a.json", "b.json", *tables)} for folder in (old, new)]
+    assert differing(*hashes, old, new) == ["b.json", "d.csv", "e.csv"]
+
+
+def test_angles_of_markers_are_equal_though_the_machine_is_slower(tmp_path: Path) -> None:
+    """`ik.json` has the frames per second of the machine."""
+    done(call("markers", "meshes/leg_swing.mot", "--model", "meshes/leg.osim", "--out", tmp_path / "m"))
+    done(call("ik", tmp_path / "m" / "markers.trc", "--model", "meshes/leg.osim", "--out", tmp_path / "ik"))
+    kept = json.loads((tmp_path / "ik" / "ik.json").read_text("utf-8"))["frames_per_second"]
+    result = done(call("rerun", tmp_path / "ik", "--out", tmp_path / "again"))
+    again = json.loads((tmp_path / "again" / "ik.json").read_text("utf-8"))["frames_per_second"]
+    assert kept != again and "differs" not in result.out
 
 
 REFUSED = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,10 +12,13 @@ from typing import Any
 
 from geocontact.analyses.frame.folder import RUN, digest
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import read_json
+from geocontact.io.text.file_preflight import open_text, read_json
 
 REMEDY = f"name the {RUN} that a command or `Result.write` left with its results"
-SECONDS = "seconds"
+TIMES = ("seconds", "cpu_seconds", "frames_per_second", "samples_per_second_of_one_core")
+"""Keys of files of JSON that hang on how fast the machine was."""
+TIMED = ("cpu [s]", "wall [s]", "seconds [s]")
+"""Columns of tables that do."""
 _UNIT = re.compile(r" \[[^\]]*\]$")
 
 
@@ -96,11 +100,23 @@ def differing(before: Mapping[str, str], after: Mapping[str, str], old: Path, ne
 
 
 def _alike(old: Path, new: Path) -> bool:
-    """Whether two files of JSON differ in nothing but the seconds that they tell."""
-    if old.suffix != ".json" or not (old.is_file() and new.is_file()):
+    """Whether two files differ in nothing but how fast they were made."""
+    if not (old.is_file() and new.is_file()):
+        return False
+    if old.suffix == ".csv":
+        return _without_times(old) == _without_times(new)
+    if old.suffix != ".json":
         return False
     one, other = _content(old), _content(new)
-    return {**one, SECONDS: None} == {**other, SECONDS: None}
+    return {**one, **dict.fromkeys(TIMES)} == {**other, **dict.fromkeys(TIMES)}
+
+
+def _without_times(file: Path) -> list[list[str]]:
+    """Rows of a table without the columns that hold times of the machine."""
+    with open_text(file) as stream:
+        rows = list(csv.reader(stream))
+    kept = [k for k, name in enumerate(rows[0]) if name not in TIMED] if rows else []
+    return [[row[k] for k in kept if k < len(row)] for row in rows]
 
 
 def _content(file: Path) -> dict[str, Any]:

@@ -120,9 +120,14 @@ def require_plausible(vertices: Float[np.ndarray, "n 3"], unit: str, plausible: 
             _warn_of_size(diagonal, unit, f"{file}: bounding box {shown} {unit}")
         return
     size = "too small for an implant" if metres < plausible[0] else "too large for an implant or a body"
-    fitting = [u for u in _COMMON_FIRST if u != unit and _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
+    fitting = [u for u in fitting_units(diagonal) if u != unit]
     remedy = f"the file looks like {_IN_WORDS[fitting[0]]}, pass `unit` {fitting[0]}" if fitting else "check the unit"
     raise InputError(file, "", f"bounding box {shown} {unit} is {size}", remedy)
+
+
+def fitting_units(diagonal: float) -> list[str]:
+    """Units in which a bounding box with this diagonal would be 10 mm to 2.5 m long, the commonest first."""
+    return [u for u in _COMMON_FIRST if _LIKELY[0] <= diagonal * LENGTH[u] <= _LIKELY[1]]
 
 
 def _warn_of_size(diagonal: float, unit: str, box: str) -> None:

@@ -1,0 +1,151 @@
+"""What the files of a form hold, beside their fields: facts, warnings, units that are offered, surfaces in 3-D."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+
+from nicegui import run as aside
+from nicegui import ui
+from nicegui.element import Element
+
+from geocontact.analyses.frame.file_content import MODEL, SURFACE, Content, markers_in_common
+from geocontact.app.elements import element, text
+from geocontact.app.fields import Field
+from geocontact.app.files import contents, write_page
+from geocontact.app.form_view import FieldRow, FormView
+
+Known = tuple[Path, int, int]
+"""A file, its time of change and its size: the same content as before."""
+
+
+class FileView:
+    """Contents of the files that were filled in.
+
+    Parameters
+    ----------
+    view
+        The form.
+    folder
+        Where paths start from.
+    pages
+        Folder for pages of surfaces.
+    serve
+        Address of a page that was written.
+    """
+
+    def __init__(self, view: FormView, folder: Path, pages: Path, serve: Callable[[Path], str]) -> None:
+        self.form, self._folder, self._pages, self._serve = view.form, folder, pages, serve
+        self._rows = {row.one.name: row for row in view.rows if row.one.kind in ("file", "files")}
+        self._places: dict[str, Element] = {}
+        self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())
+        self._known: dict[Known, Content] = {}
+        self._at_work = False
+
+    async def look(self) -> None:
+        """Read files that are new, and show what they hold; nothing before a field for files was changed by hand."""
+        if self._at_work or not any(row.touched for row in self._rows.values()):
+            return
+        self._at_work = True
+        try:
+            while (now := {name: self._files(row.one) for name, row in self._rows.items()}) != self._shown:
+                await self._read(now)
+                if any(row.row.is_deleted for row in self._rows.values()):  # the browser has left the page
+                    return
+                self._shown = now
+                for name, files in now.items():
+                    if files or name in self._places:
+                        self._show(self._rows[name], files)
+        finally:
+            self._at_work = False
+
+    async def _read(self, files: Mapping[str, tuple[Known, ...]]) -> None:
+        """Read those that are not known."""
+        new = list(dict.fromkeys(each for some in files.values() for each in some if each not in self._known))
+        if new:
+            found = await aside.io_bound(contents, [path for path, *_ in new])
+            self._known |= dict(zip(new, found or [], strict=True))
+
+    def _files(self, one: Field) -> tuple[Known, ...]:
+        """Files of a field that are there."""
+        lines = [line.strip() for line in str(self.form.value(one)).splitlines() if line.strip()]
+        there = [path for line in lines if (path := self._folder / line).is_file()]
+        return tuple((path, (seen := path.stat()).st_mtime_ns, seen.st_size) for path in there)
+
+    def _show(self, row: FieldRow, files: tuple[Known, ...]) -> None:
+        if row.one.name not in self._places:
+            with row.row:
+                self._places[row.one.name] = element("div", "content", aria_live="polite")
+        place = self._places[row.one.name]
+        place.clear()
+        with place:
+            for known in files:
+                self._file(row.one, known[0], self._known[known])
+
+    def _file(self, one: Field, path: Path, content: Content) -> None:
+        """Name and kind of a file above its facts."""
+        with element("p"):
+            text("strong", path.name)
+            text("span", f": {content.kind or 'a file'}")
+        with element("ul"):
+            for line in (*content.facts, *self._in_common(content)):
+                text("li", line)
+            for line in content.warnings:
+                text("li", f"warning: {line}")
+            if content.wrong:
+                text("li", content.wrong, "refused")
+        units = self._units_of(one)
+        if units and content.kind == SURFACE and not content.wrong:
+            with element("div", "links"):
+                self._offer(units, path, content)
+                self._picture(units, path)
+
+    def _offer(self, units: list[Field], path: Path, content: Content) -> None:
+        """Buttons that choose a unit, of all files where none is chosen yet; nothing is chosen without them."""
+
+        def choose(unit: str) -> None:
+            field = units[-1] if not self.form.value(units[-1]) else units[0]
+            script = f"const e = document.querySelector('[name={json.dumps(field.name)}]'); e.value = '{unit}';"
+            ui.run_javascript(f"{script} e.dispatchEvent(new Event('change', {{ bubbles: true }}));")
+
+        for each in content.units:
+            if all(each in one.one.choices for one in units):
+                button = text("button", f"use {each}", type="button", aria_label=f"use {each} for {path.name}")
+                button.on("click", partial(choose, each))
+
+    def _picture(self, units: list[Field], path: Path) -> None:
+        button = text("button", "show in 3-D", type="button", aria_label=f"show {path.name} in 3-D")
+        said = text("span", "", "why", role="status")
+        place = element("div", "picture")
+
+        async def show() -> None:
+            chosen = next(filter(None, (str(self.form.value(one)) for one in units)), "")
+            if not chosen:
+                said.text = f"choose the {units[-1].label} first"
+                return
+            out = self._pages / f"{path.stem}_surface.html"
+            said.text = "…"
+            self._pages.mkdir(parents=True, exist_ok=True)
+            said.text = str(await aside.io_bound(write_page, path, chosen, out))
+            place.clear()
+            if not said.text:
+                with place:
+                    title = f"{path.name} in 3-D"
+                    element("iframe", src=self._serve(out), title=title, sandbox="allow-scripts allow-downloads")
+
+        button.on("click", show)
+
+    def _units_of(self, one: Field) -> list[Field]:
+        """Fields for the unit of a file: one of its own before that of all."""
+        named = {each.name: each for each in self.form.fields if each.kind == "choice"}
+        return [named[name] for name in (f"unit_{one.name}", f"{one.name}_unit", "unit") if name in named]
+
+    def _in_common(self, content: Content) -> list[str]:
+        """Markers of a recording beside those of a model in another field."""
+        if not content.markers or content.kind == MODEL:
+            return []
+        shown = {known for files in self._shown.values() for known in files}
+        models = [each for each in (self._known[known] for known in shown) if each.kind == MODEL and each.markers]
+        return [markers_in_common(content.markers, each.markers) for each in models]
