@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from itertools import count
 from pathlib import Path
 
 from nicegui import ui
@@ -15,7 +14,7 @@ from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form, shown
 from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
-from geocontact.app.study import study_of
+from geocontact.app.study import study_of, written_study
 from geocontact.cli.folders import OUT
 
 LOOK = 0.3
@@ -54,14 +53,12 @@ class Workplace:
 
     def run(self) -> None:
         """A run of what is filled in; its results lie in a folder of their own."""
-        self.words = self.form.words(self.out)
-        own = [run for run in self.queue.runs if run.out == self.out]
-        if own and own[-1].state in ("done", "waiting", "running"):
-            self.out = _next_folder(self.out)
+        run = self.queue.add_apart(self.form.words, self.out)
+        self.words = run.words
+        if run.out != self.out:
+            self.out = run.out
             self.folder.props["defaultValue"] = str(self.out)
             ui.run_javascript(f"document.getElementById('{self.folder.html_id}').value = {json.dumps(str(self.out))}")
-            self.words = self.form.words(self.out)
-        run = self.queue.add(self.words, self.out, self.out.name)
         self._panels[run.number] = RunPanel(run, self)
         self._dirty = True
         self._look()
@@ -82,10 +79,9 @@ class Workplace:
             )
 
     def make_study(self) -> None:
-        """Write the study that the form begins, and say how it is run."""
-        file = self.queue.folder / f"{self.out.name}-study.toml"
-        described = study_of(self.form, self.queue.folder)
-        file.write_text(described, encoding="utf-8")
+        """Write the study that the form begins beside those that are there, and say how it is run."""
+        described = study_of(self.form, self.queue.start)
+        file = written_study(self.queue.folder / f"{self.out.name}-study.toml", described)
         self.study.text = f"{described}\n# {shown(['cohort', str(file), OUT, str(file.parent / file.stem)])}"
 
     def _beside(self) -> None:
@@ -173,7 +169,7 @@ class RunPanel:
         """Show what is new; whether the run has ended since the last look."""
         run = self.run
         left = run.seconds_left()
-        seen = (run.state, run.stage, run.share, len(run.warnings), len(run.printed), left and round(left))
+        seen = (run.state, run.stage, run.share, len(run.warnings), len(run.printed), run.code, left and round(left))
         if seen == self._seen:
             return False
         ended = run.over and self._seen[:1] != seen[:1]
@@ -183,8 +179,10 @@ class RunPanel:
         self._bar.props.set_optional("value", run.share)
         self._lines.clear()
         with self._lines:
-            for line in (*(f"warning: {each}" for each in run.warnings), *run.printed, *filter(None, [run.message])):
-                text("li", line, "bad" if line == run.message else "")
+            for line in (*(f"warning: {each}" for each in run.warnings), *run.printed):
+                text("li", line)
+            for line in run.complaints:
+                text("li", line, "bad")
         if ended:
             self._ended()
         return ended
@@ -223,10 +221,3 @@ def _state(run: Run, left: float | None) -> str:
 
 def _duration(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100.0 else f"{seconds / 60.0:.0f} min"
-
-
-def _next_folder(out: Path) -> Path:
-    """The next folder of that name and number that is not there: area-2 after area-1."""
-    stem, dash, last = out.name.rpartition("-")
-    base = stem if dash and last.isdigit() else out.name
-    return next(found for k in count(2) if not (found := out.with_name(f"{base}-{k}")).exists())

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import shlex
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,7 @@ from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
 from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
-from geocontact.app.study import study_of
+from geocontact.app.study import study_of, written_study
 from geocontact.cli.main import app
 from geocontact.data.errors import InputError
 
@@ -169,3 +171,27 @@ def test_a_study_of_a_form_is_read_by_cohort(command: str, home: Path, tmp_path:
     known = {one.spelled.key or one.name: one for one in declared(options)}
     given = {known[name].name: known[name].read(value) for name, value in study.options.items()}
     assert study.analysis == command and options(**given) == parsed(words)
+
+
+@pytest.mark.parametrize(
+    "text", ["05", "5.", "-.5", ".5", "+5", "-5", "1e3", "1_000", "7", "0.25", "inf", "nan", "0x1F", "five"]
+)
+def test_numbers_in_a_study_are_those_that_were_typed(text: str) -> None:
+    """Spellings that TOML does not know as well; what is no finite number stays as it was typed."""
+    one = next(each for each in fields_of("area") if each.one.kind is float or str(each.one.kind).startswith("float"))
+    found = tomllib.loads(study_of(Form("area", {one.name: text}), Path()))["options"]
+    value = found.get(one.spelled.removeprefix("--").replace("-", "_"), found.get(one.name))
+    try:
+        expected: float | str = float(text) if math.isfinite(float(text)) else text
+    except ValueError:
+        expected = text
+    assert value == expected
+
+
+def test_a_study_that_was_edited_stays(tmp_path: Path) -> None:
+    file = tmp_path / "new" / "area-1-study.toml"
+    assert written_study(file, "a = 1\n") == written_study(file, "a = 1\n") == file
+    file.write_text("mine", encoding="utf-8")
+    again = written_study(file, "a = 1\n")
+    assert again.name == "area-1-study-2.toml" and again.read_text("utf-8") == "a = 1\n"
+    assert file.read_text("utf-8") == "mine" and written_study(file, "a = 1\n") == again
