@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hmac import compare_digest
 from itertools import count
 from pathlib import Path
 
@@ -21,8 +22,11 @@ from geocontact.cli.command import summary
 MOST_RECENT = 12
 RECORD = "run.json"
 HERE = Path(__file__).parent
-SANDBOX = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
-"""Pages of results run their own scripts, but belong to no origin: they reach nothing of the window."""
+SANDBOX = (
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+)
+"""Pages of results run their own scripts, but belong to no origin and load nothing: they reach no server."""
 
 
 class Shared:
@@ -57,9 +61,9 @@ class Shared:
                 kept.write(piece)
         return str(folder / plain)
 
-    def file(self, number: int, name: str) -> Path:
+    def file(self, key: str, name: str) -> Path:
         """A file of a run's results; nothing outside of their folder."""
-        run = next((each for each in self.queue.runs if each.number == number), None)
+        run = next((each for each in self.queue.runs if compare_digest(each.key.encode(), key.encode())), None)
         if run is not None:
             found = (run.out / name).resolve()
             if found.is_relative_to(run.out.resolve()) and found.is_file():
@@ -77,9 +81,9 @@ def add_pages(queue: Queue) -> None:
     async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
         return PlainTextResponse(await shared.take(key, name, request))
 
-    @site.get("/result/{number}/{name:path}")
-    def _result(number: int, name: str) -> FileResponse:
-        return FileResponse(shared.file(number, name), headers={"content-security-policy": SANDBOX})
+    @site.get("/result/{key}/{name:path}")
+    def _result(key: str, name: str) -> FileResponse:
+        return FileResponse(shared.file(key, name), headers={"content-security-policy": SANDBOX})
 
     @ui.page("/")
     def _start() -> None:
@@ -165,7 +169,7 @@ def _recent(queue: Queue) -> None:
     with element("ul"):
         for run in done:
             with element("li"):
-                link(run.out.name, f"/result/{run.number}/report.html", target="_blank")
+                link(run.out.name, run.address, target="_blank")
 
 
 def _run_before(queue: Queue, command: str) -> None:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import IO, Literal
 
 from geocontact.analyses.frame.folder import DRAFT, OWNER
+from geocontact.app.gate import RESULT, secret
 from geocontact.cli.main import FAILURE, USAGE_ERROR
 
 State = Literal["waiting", "running", "done", "refused", "failed", "cancelled"]
@@ -62,6 +63,8 @@ class Run:
     ended: float = 0.0
     code: int = 0
     mark: str = field(default_factory=lambda: secrets.token_hex(4))
+    key: str = field(default_factory=secret, repr=False)
+    """Word of the address of its results."""
     process: subprocess.Popen[str] | None = field(default=None, repr=False)
     _counting_since: tuple[float, float] | None = None
 
@@ -80,6 +83,11 @@ class Run:
         """The page of its results, None where there is none."""
         page = self.out / REPORT
         return page if self.state == "done" and page.is_file() else None
+
+    @property
+    def address(self) -> str:
+        """Where the page of its results is served."""
+        return f"{RESULT}{self.key}/{REPORT}"
 
     @property
     def complaints(self) -> list[str]:

@@ -19,7 +19,6 @@ from geocontact.cli.folders import OUT
 
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
-NEXT_TO = "report.html"
 
 
 class Workplace:
@@ -73,7 +72,7 @@ class Workplace:
             text("h2", run.title)
             element(
                 "iframe",
-                src=f"/result/{run.number}/{NEXT_TO}",
+                src=run.address,
                 title=f"results in {run.title}",
                 sandbox="allow-scripts allow-downloads",
             )
@@ -199,7 +198,7 @@ class RunPanel:
             text("button", "show beside", type="button", aria_label=f"show {self.run.title} beside").on(
                 "click", lambda: self._place.show(self.run, beside=True)
             )
-            link("in a tab of its own", f"/result/{self.run.number}/{NEXT_TO}", target="_blank")
+            link("in a tab of its own", self.run.address, target="_blank")
 
     async def _end(self) -> None:
         from nicegui import run as aside
