@@ -15,11 +15,13 @@ from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
 from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form
+from geocontact.app.gate import secret
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import Workplace
 from geocontact.cli.command import summary
 
 MOST_RECENT = 12
+MOST_OF_A_NAME = 10_000
 RECORD = "run.json"
 HERE = Path(__file__).parent
 SANDBOX = (
@@ -50,16 +52,25 @@ class Shared:
         return f"/upload/{key}"
 
     async def take(self, key: int, name: str, request: Request) -> str:
-        """Keep a file that was dropped; its path."""
+        """Keep a file that was dropped, whole or not at all, in place of none that is there; its path."""
         plain = name.replace("\\", "/").rpartition("/")[2].strip()
         if key not in self._uploads or plain in ("", ".", "..") or "\0" in plain:
             raise HTTPException(404)
         folder = self._uploads[key]
         folder.mkdir(parents=True, exist_ok=True)
-        with (folder / plain).open("wb") as kept:
-            async for piece in request.stream():
-                kept.write(piece)
-        return str(folder / plain)
+        part = folder / f".{secret()}"
+        try:
+            with part.open("wb") as kept:
+                async for piece in request.stream():
+                    kept.write(piece)
+            places = (folder / plain, *(folder / str(k) / plain for k in range(2, MOST_OF_A_NAME)))
+            place = next(each for each in places if not each.exists())
+            place.parent.mkdir(exist_ok=True)
+            return str(part.replace(place))
+        except OSError as error:
+            raise HTTPException(507, str(error.strerror)) from error
+        finally:
+            part.unlink(missing_ok=True)
 
     def file(self, key: str, name: str) -> Path:
         """A file of a run's results; nothing outside of their folder."""

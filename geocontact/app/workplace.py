@@ -89,6 +89,7 @@ class Workplace:
             label = text("label", "folder for the results")
             with element("div", "in"):
                 self.folder = element("input", type="text", defaultValue=str(self.out), spellcheck="false")
+                self.folder.on("change", lambda e: self._set_out(str(e.args)), js_handler=VALUE)
                 self.folder.on("input", lambda e: self._set_out(str(e.args)), js_handler=VALUE, throttle=LOOK)
             label.props["for"] = self.folder.html_id
         with element("div", "links"):

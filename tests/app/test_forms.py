@@ -18,6 +18,7 @@ from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
 from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
 from geocontact.app.study import study_of, written_study
+from geocontact.cli.demo import sample_folder
 from geocontact.cli.main import app
 from geocontact.data.errors import InputError
 
@@ -149,6 +150,79 @@ def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
         assert message and not lines and at is not None and at.name == name, (name, message)
     with pytest.raises(InputError, match="4 parsec"):
         calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
+
+
+def test_an_input_that_is_missing_is_not_taken_by_the_next_one(home: Path) -> None:
+    form = Form.of_words(words_of("area", home))
+    del form.values["moving"]
+    message = calls.checked(form.words("out"), "area", "out")[1]
+    at = form.at(message)
+    assert "MOVING is missing" in message and at is not None and at.name == "moving"
+
+
+def test_a_path_is_found_whole_before_by_its_name(home: Path) -> None:
+    form = Form("area", {"moving": ".", "fixed": "b/m.stl", "motion": "a/m.stl"})
+    for message, name in (("a/m.stl: is no motion", "motion"), ("b/m.stl: is damaged", "fixed"), ("x.csv: is", "")):
+        at = form.at(message)
+        assert (at.name if at is not None else "") == name, message
+
+
+def _ways(command: str) -> set[str]:
+    """Fields that somebody reaches from an empty form who fills in every field that is enabled, in rounds; those that
+    exclude another one are filled alone."""
+    form = Form(command)
+    reached: set[str] = set()
+    for _ in form.fields:
+        filled = {"flag": True, "choice": "1"}
+        usable = [one for one in form.fields if not form.without_effect(one)]
+        new = {one.name for one in usable} - reached
+        reached |= new
+        for one in usable:
+            before = dict(form.values)
+            form.values[one.name] = filled.get(one.kind, "x")
+            if any(not form.without_effect(each) == "" for each in form.fields if each.name in before):
+                form.values = before
+        for one in form.fields:  # one at a time as well: what it alone opens
+            alone = Form(command, {one.name: filled.get(one.kind, "x")}) if one.name in reached else Form(command)
+            reached |= {each.name for each in alone.fields if not alone.without_effect(each)}
+    return reached
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_field_can_be_reached_from_an_empty_form(command: str) -> None:
+    """Those for files of a kind need such a file, which a text stands for here."""
+    form = Form(command)
+    names = {one.name for one in form.fields if not one.one.endings}
+    assert names - _ways(command) == set()
+
+
+@pytest.mark.parametrize("name", ["parquet", "excel_safe", "no_overwrite"])
+def test_forms_of_tables_are_written_in_python_too(name: str, home: Path, tmp_path: Path) -> None:
+    """The lines are run: they write what the command line writes with the same words."""
+    form = Form.of_words(words_of("elbow design", home))
+    form.values[name] = True
+    out = tmp_path / "out"
+    lines = calls.python_lines(form.words(out), "elbow design", out)
+    exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    assert (name == "parquet") == bool(list(out.glob("*.parquet")))
+    if name == "no_overwrite":
+        with pytest.raises(InputError, match="holds results already"):
+            exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    else:
+        assert f"{name}=True" in lines
+
+
+def test_a_folder_takes_the_place_of_the_recording(tmp_path: Path) -> None:
+    """What the command line finds in it is not missing in the form; a trial each in Python."""
+    folder = tmp_path / "session"
+    folder.mkdir()
+    for name in ("leg_swing.mot", "leg.osim"):
+        (folder / name).write_bytes((sample_folder() / name).read_bytes())
+    form = Form("markers", {"motion": str(folder)})
+    first = next(one.name for one in form.fields if one.one.positional)
+    form = Form("markers", {first: str(folder)})
+    lines, wrong = calls.checked(form.words(tmp_path / "out"), "markers", tmp_path / "out")
+    assert wrong == "" and "leg.osim" in lines and "leg_swing.mot" in lines and str(tmp_path / "out") in lines
 
 
 def test_the_names_of_options_are_not_found_in_longer_ones() -> None:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
@@ -251,8 +252,8 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     tab.get_by_role("button", name="Run", exact=True).click()
     assert ": done" in ended(tab)
     first = tab.locator(".run strong").last.text_content() or ""
-    tab.locator('[name="limit"]').fill("8")
-    tab.wait_for_timeout(600)
+    tab.locator('[name="limit"]').fill("7")
+    tab.locator('[name="limit"]').fill("8")  # Run follows at once
     tab.get_by_role("button", name="Run", exact=True).click()
     until(tab, "document.querySelectorAll('.run').length === 2", 20.0)
     second = ended(tab)
@@ -267,7 +268,9 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     tab.get_by_role("button", name="make a study of this").click()
     until(tab, "document.querySelector('pre[aria-label=study]').textContent.includes('analysis')", 20.0)
     files = sorted(window.folder.glob("elbow-design-*-study.toml"))
-    assert files and 'limit = "8"' not in files[-1].read_text("utf-8").partition("[options]")[0]
+    assert files and tomllib.loads(files[-1].read_text("utf-8"))["options"]["limit"] in (8, "8")
+    record = json.loads((window.folder / second.partition(":")[0] / "run.json").read_text("utf-8"))
+    assert float(record["options"]["limit"]) == 8.0
     tab.close()
 
 
@@ -280,6 +283,29 @@ def test_a_file_that_is_chosen_lies_in_a_folder_of_the_run(window: Window, tmp_p
     there = Path(tab.locator('[name="mesh"]').input_value())
     assert there.read_bytes() == cup.read_bytes() and there.parent.name.endswith("-files")
     until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('a cup.stl')", 20.0)
+    tab.close()
+
+
+def test_two_files_of_one_name_stay_two(window: Window, tmp_path: Path) -> None:
+    """a/m.stl as moving and b/m.stl as fixed; a file that cannot be taken is said at its field."""
+    tab = window.tab("form/area")
+    kept = []
+    for name in ("moving", "fixed"):
+        file = tmp_path / name / "m.stl"
+        file.parent.mkdir()
+        file.write_text(name, encoding="utf-8")
+        tab.get_by_label(f"choose a file for {name}", exact=True).set_input_files(file)
+        until(tab, f"document.querySelector('[name={name}]').value.endsWith('m.stl')", 20.0)
+        kept.append(Path(tab.locator(f'[name="{name}"]').input_value()))
+    assert [each.read_text("utf-8") for each in kept] == ["moving", "fixed"]
+    tab.route("**/upload/**", lambda route: route.abort())
+    tab.get_by_label("choose a file for motion", exact=True).set_input_files(file)
+    until(
+        tab,
+        "document.querySelector('[name=motion]').closest('.field').textContent.includes('m.stl was not taken')",
+        20.0,
+    )
+    assert tab.locator('[name="motion"]').input_value() == ""
     tab.close()
 
 
