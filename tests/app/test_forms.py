@@ -14,14 +14,18 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.marks import Requires
 from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
 from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
 from geocontact.app.study import study_of, written_study
-from geocontact.cli.demo import sample_folder
+from geocontact.cli.command import spelling
+from geocontact.cli.folders import calls_in_folder
 from geocontact.cli.main import app
 from geocontact.data.errors import InputError
+from tests.cli.test_tool_folders import leg, opencap, put
 
+__all__ = ["leg"]
 COMMANDS = sorted(each.command for each in ENTRIES if each.command)
 
 
@@ -167,33 +171,24 @@ def test_a_path_is_found_whole_before_by_its_name(home: Path) -> None:
         assert (at.name if at is not None else "") == name, message
 
 
-def _ways(command: str) -> set[str]:
-    """Fields that somebody reaches from an empty form who fills in every field that is enabled, in rounds; those that
-    exclude another one are filled alone."""
-    form = Form(command)
-    reached: set[str] = set()
-    for _ in form.fields:
-        filled = {"flag": True, "choice": "1"}
-        usable = [one for one in form.fields if not form.without_effect(one)]
-        new = {one.name for one in usable} - reached
-        reached |= new
-        for one in usable:
-            before = dict(form.values)
-            form.values[one.name] = filled.get(one.kind, "x")
-            if any(not form.without_effect(each) == "" for each in form.fields if each.name in before):
-                form.values = before
-        for one in form.fields:  # one at a time as well: what it alone opens
-            alone = Form(command, {one.name: filled.get(one.kind, "x")}) if one.name in reached else Form(command)
-            reached |= {each.name for each in alone.fields if not alone.without_effect(each)}
-    return reached
+def reached(form: Form, name: str, on_the_way: tuple[str, ...] = ()) -> bool:
+    """Whether somebody who fills in only what is enabled can fill in this field; what it needs is filled in."""
+    one = next(each for each in form.fields if each.name == name)
+    for rule in one.one.rules:
+        if form.without_effect(one) and isinstance(rule, Requires):
+            for other in filter(None, (rule.other, rule.alternative)):
+                if other not in on_the_way and reached(form, other, (*on_the_way, name)):
+                    kind = next(each.kind for each in form.fields if each.name == other)
+                    form.values[other] = True if kind == "flag" else "x"
+                    break
+    return not form.without_effect(one)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_field_can_be_reached_from_an_empty_form(command: str) -> None:
-    """Those for files of a kind need such a file, which a text stands for here."""
-    form = Form(command)
-    names = {one.name for one in form.fields if not one.one.endings}
-    assert names - _ways(command) == set()
+    """Those for files of a kind need such a file."""
+    names = [one.name for one in fields_of(command) if not one.one.endings]
+    assert [name for name in names if not reached(Form(command), name)] == []
 
 
 @pytest.mark.parametrize("name", ["parquet", "excel_safe", "no_overwrite"])
@@ -212,17 +207,18 @@ def test_forms_of_tables_are_written_in_python_too(name: str, home: Path, tmp_pa
         assert f"{name}=True" in lines
 
 
-def test_a_folder_takes_the_place_of_the_recording(tmp_path: Path) -> None:
-    """What the command line finds in it is not missing in the form; a trial each in Python."""
-    folder = tmp_path / "session"
-    folder.mkdir()
-    for name in ("leg_swing.mot", "leg.osim"):
-        (folder / name).write_bytes((sample_folder() / name).read_bytes())
-    form = Form("markers", {"motion": str(folder)})
-    first = next(one.name for one in form.fields if one.one.positional)
-    form = Form("markers", {first: str(folder)})
-    lines, wrong = calls.checked(form.words(tmp_path / "out"), "markers", tmp_path / "out")
-    assert wrong == "" and "leg.osim" in lines and "leg_swing.mot" in lines and str(tmp_path / "out") in lines
+def test_a_folder_takes_the_place_of_the_recording(leg: Path, tmp_path: Path) -> None:
+    """What the command line finds in it is not missing in the form; each trial has its lines and its folder."""
+    folder, out = opencap(leg, tmp_path / "session"), tmp_path / "out"
+    put(leg, folder, ("walk.mot", "OpenSimData/Kinematics/walk2.mot"), ("walk.trc", "MarkerData/walk2.trc"))
+    words = Form("ik", {fields_of("ik")[0].name: str(folder)}).words(out)
+    found = calls_in_folder(words, spelling)
+    lines, wrong = calls.checked(words, "ik", out)
+    assert wrong == "" and len(found) > 1 and lines.count("gc.inverse_kinematics(") == len(found)
+    assert all(str(Path("MarkerData") / name) in lines and str(out / name) in lines for name in ("walk1", "walk2"))
+    assert lines.count("leg_scaled.osim") == len(found)
+    (folder / "OpenSimData" / "Model" / "leg_scaled.osim").unlink()
+    assert calls.checked(words, "ik", out)[0] == ""
 
 
 def test_the_names_of_options_are_not_found_in_longer_ones() -> None:
