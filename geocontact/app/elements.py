@@ -47,8 +47,7 @@ def below_home(address: str) -> str:
     """An address of the window below the path of its pages; one of results stays."""
     if not address.startswith("/") or address.startswith(RESULT):
         return address
-    request = context.client.request
-    return f"{request.scope.get('root_path', '') if request is not None else ''}{address}"
+    return f"{context.client.request.scope.get('root_path', '')}{address}"
 
 
 def _attributed(made: Element, classes: str, attributes: dict[str, Any]) -> None:

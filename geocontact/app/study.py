@@ -10,6 +10,7 @@ from pathlib import Path
 from geocontact.analyses.frame.calls import key
 from geocontact.app.fields import Field, Form
 from geocontact.cli.command import FORMS
+from geocontact.io.text.file_preflight import read_bytes
 
 HEAD = """\
 # A study of one trial. To make it one of many: name the files by a pattern, files = "data/{{subject}}_{{trial}}.csv",
@@ -35,9 +36,10 @@ def written_study(file: Path, described: str) -> Path:
     file.parent.mkdir(parents=True, exist_ok=True)
     numbered = (file.with_stem(f"{file.stem}-{k}") for k in count(2))
     place = file
-    while place.exists() and place.read_text(encoding="utf-8", errors="replace") != described:
+    content = described.encode()
+    while place.exists() and not (place.is_file() and read_bytes(place) == content):
         place = next(numbered)
-    place.write_text(described, encoding="utf-8")
+    place.write_bytes(content)
     return place
 
 
