@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import redirect_stderr
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +12,16 @@ from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
 from geocontact.analyses.frame.options import Options, declared
-from geocontact.cli.command import command_of
+from geocontact.cli.command import FORMS, command_of, spelling
+from geocontact.cli.folders import OUT, calls_in_folder
 from geocontact.cli.main import app, refusal
+from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
 
 INDENT = "    "
 WIDTH = 100
+WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite=False"}
+"""Arguments of `Result.write`."""
 
 
 def read(words: Sequence[str], command: str) -> Options:
@@ -26,8 +32,24 @@ def read(words: Sequence[str], command: str) -> Options:
     CycloptsError, InputError
         As the command line does.
     """
+    return _bound(words, command)[0]
+
+
+def _bound(words: Sequence[str], command: str) -> tuple[Options, dict[str, Any]]:
+    """Options of a call, and all that was typed by its name."""
     _, bound, _ = app.parse_args(list(words), exit_on_error=False, print_error=False)
-    return command_of(entry_of(command)).read(*bound.args, **bound.kwargs)
+    return command_of(entry_of(command)).read(*bound.args, **bound.kwargs), bound.kwargs
+
+
+def _calls(words: Sequence[str]) -> list[list[str]]:
+    """What the command line makes of a call: one for each trial where a folder takes the place of the recording.
+
+    Warnings are left to the run.
+    """
+    with redirect_stderr(StringIO()):
+        tokens = with_setup(words)
+        found = calls_in_folder(tokens, spelling)
+    return [each.tokens for each in found] or [tokens]
 
 
 def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:
@@ -46,8 +68,19 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
     CycloptsError, InputError
         For words that the command line refuses.
     """
+    calls = _calls(words)
+    lines = ""
+    for tokens in calls:
+        own = out if len(calls) == 1 else next(word for word in tokens if word.startswith(f"{OUT}=")).partition("=")[2]
+        lines += _one_call(tokens, command, own)
+    if "workers" in {one.name for one in declared(entry_of(command).load_options())}:  # they import the script anew
+        lines = lines and 'if __name__ == "__main__":\n' + "".join(f"{INDENT}{each}\n" for each in lines.splitlines())
+    return lines and f"import geocontact as gc\n\n{lines}"
+
+
+def _one_call(words: Sequence[str], command: str, out: Path | str) -> str:
     entry = entry_of(command)
-    options = read(words, command)
+    options, typed = _bound(words, command)
     if not entry.exported or (entry.many and options.given("many")):
         return ""
     call = ".".join(part for part in ("gc", entry.room, entry.name) if part)
@@ -60,10 +93,8 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
     inside = ", ".join(given)
     if len(inside) > WIDTH:
         inside = "\n" + "".join(f"{INDENT}{each},\n" for each in given)
-    lines = f"result = {call}({inside})\nresult.write({str(out)!r})\n"
-    if any(one.name == "workers" for one in declared(type(options))):  # processes import the script anew
-        lines = 'if __name__ == "__main__":\n' + "".join(f"{INDENT}{line}\n" for line in lines.splitlines())
-    return f"import geocontact as gc\n\n{lines}"
+    forms = [WRITTEN[name] for name in FORMS if typed.get(name)]
+    return f"result = {call}({inside})\nresult.write({', '.join([repr(str(out)), *forms])})\n"
 
 
 def _plain(value: Any) -> Any:

@@ -5,8 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from nicegui import context
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
+
+from geocontact.app.gate import RESULT
+
+ADDRESSES = ("href", "src", "data_to")
+"""Attributes that hold one."""
 
 
 def element(tag: str, classes: str = "", **attributes: Any) -> Element:
@@ -37,8 +43,17 @@ def choice(values: Iterable[tuple[str, str]], chosen: str, **attributes: Any) ->
     return made
 
 
+def below_home(address: str) -> str:
+    """An address of the window below the path of its pages; one of results stays."""
+    if not address.startswith("/") or address.startswith(RESULT):
+        return address
+    return f"{context.client.request.scope.get('root_path', '')}{address}"
+
+
 def _attributed(made: Element, classes: str, attributes: dict[str, Any]) -> None:
     if classes:
         made.classes(classes)
     for name, value in attributes.items():
+        if name in ADDRESSES:
+            value = below_home(value)
         made.props[name.rstrip("_").replace("_", "-") if name != "defaultValue" else name] = value

@@ -168,7 +168,7 @@ class Form:
         """Why a field has no effect now, "" where it has one."""
         for rule in one.one.rules:
             others = [each for each in (rule.other, getattr(rule, "alternative", "")) if each]
-            if isinstance(rule, Requires) and not any(map(self.given, others)):
+            if isinstance(rule, Requires) and not any(map(self.given, others)) and not self._mutual(one, others):
                 return f"needs {' or '.join(map(self._spelled, others))}"
             if isinstance(rule, Excludes) and self.given(rule.other):
                 return f"has no effect with {self._spelled(rule.other)}"
@@ -176,6 +176,11 @@ class Form:
         if endings and not any(Path(path).suffix.lower() in endings for path in self.paths()):
             return f"only for {', '.join(endings)} files"
         return ""
+
+    def _mutual(self, one: Field, others: list[str]) -> bool:
+        """Whether one of the others requires this field too: somebody has to begin with one of them."""
+        rules = [rule for each in self.fields if each.name in others for rule in each.one.rules]
+        return any(isinstance(rule, Requires) and one.name in (rule.other, rule.alternative) for rule in rules)
 
     def paths(self) -> list[str]:
         """Files and folders that were filled in."""
@@ -186,10 +191,13 @@ class Form:
         """The command line: words after `geocontact`; fields without effect are left out."""
         inputs: list[str] = []
         named: list[str] = []
+        gap = False  # an input that is missing: those behind it would be read in its place
         for one in self.fields:
             if not self.without_effect(one):
                 typed = one.typed(self.value(one), self.unit(one))
-                (inputs if argument(one.one) else named).extend(typed)
+                gap = gap or (argument(one.one) and one.one.required and not typed)
+                if not (gap and argument(one.one)):
+                    (inputs if argument(one.one) else named).extend(typed)
         return [*self.command.split(), *inputs, *named, f"{OUT}={out}"]
 
     def at(self, message: str) -> Field | None:
@@ -197,11 +205,16 @@ class Form:
         found = [(place, one) for one in self.fields if (place := _place(one.spelled, message)) >= 0]
         if found:
             return min(found, key=lambda each: (each[0], -len(each[1].spelled)))[1]
-        for one in self.fields:
-            if one.kind in ("file", "files"):
-                names = [Path(line.strip()).name for line in str(self.value(one)).splitlines() if line.strip()]
-                if any(name in message for name in names):
-                    return one
+        filled = [
+            (one, line.strip())
+            for one in self.fields
+            if one.kind in ("file", "files")
+            for line in str(self.value(one)).splitlines()
+        ]
+        for shorter in (str, lambda path: Path(path).name):
+            named = [(len(shorter(path)), one) for one, path in filled if _place(shorter(path), message) >= 0]
+            if named:
+                return max(named, key=lambda each: each[0])[1]
         return None
 
     def _spelled(self, name: str) -> str:
@@ -301,6 +314,8 @@ def _parts(kind: Any) -> tuple[Any, ...]:
 
 def _place(spelled: str, message: str) -> int:
     """Where a message names an option; -1 where it does not, or names a longer one."""
+    if not spelled.strip("."):  # the folder that one is in has no name
+        return -1
     at = message.find(spelled)
     while at >= 0:
         before, after = message[:at][-1:], message[at + len(spelled) :][:1]

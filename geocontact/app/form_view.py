@@ -87,6 +87,7 @@ class FieldRow:
             made = element("input", type="text", defaultValue=value, spellcheck="false", autocomplete="off")
             if one.one.typed is not None and one.one.typed.python:
                 made.props["placeholder"] = one.default
+        made.on("change", lambda e: self._set(str(e.args)), js_handler=VALUE)  # at once: Run may be what comes next
         return made.on("input", lambda e: self._set(str(e.args)), js_handler=VALUE, throttle=PAUSE)
 
     def _units(self) -> None:

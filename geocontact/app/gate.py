@@ -2,7 +2,10 @@
 
 The address holds a token. Its first visitor gets a cookie in exchange, and the token is void. Everything else is 403:
 pages, static files and websockets without the cookie, a Host that is not this address (a name that somebody else's
-server resolves to 127.0.0.1), an Origin of another page. Written for ASGI 3.0, in front of the whole application.
+server resolves to 127.0.0.1), an Origin of another page. Cookies know no ports: that of the window is for the path
+below which all its pages lie, a secret as well, so a server at another port gets neither. Results have an address of
+their own, not to be guessed, without the cookie, which pages in a sandbox do not send for their links. Written for
+ASGI 3.0, in front of the whole application.
 """
 
 from __future__ import annotations
@@ -12,7 +15,7 @@ import secrets
 from collections.abc import Awaitable, Callable, MutableMapping
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs
+from urllib.parse import parse_qs, quote
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -21,15 +24,26 @@ Application = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 HOST = "127.0.0.1"
 BYTES = 32
+NO_REFERRER = (b"referrer-policy", b"no-referrer")
 REFUSED = b"403: open the address that geocontact app printed; it can be used once"
-ENTER = b'<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0;url=/"><title>geocontact</title>'
+RESULT = "/result/"
+"""Where results are, each below a word that cannot be guessed."""
+ENTER = (
+    '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0;url={home}"><title>geocontact</title>'
+)
 """A page of its own, not a redirection: the cookie is SameSite=Strict, and the visitor may come from a file."""
 POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws:; frame-src 'self'; object-src 'none'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{here}; frame-src 'self'; "
+    "object-src 'none'; "
     "base-uri 'none'; form-action 'self'; frame-ancestors 'self'"
 )
 """Nothing is loaded from elsewhere, whatever a page asks for."""
+
+
+def secret() -> str:
+    """A word that cannot be guessed."""
+    return secrets.token_urlsafe(BYTES)
 
 
 class Gate:
@@ -41,13 +55,16 @@ class Gate:
         What is behind it.
     port
         That it listens at.
+    home
+        Path below which its pages lie: "/" and a secret.
     """
 
-    def __init__(self, application: Application, port: int) -> None:
+    def __init__(self, application: Application, port: int, home: str) -> None:
         self.app = application
+        self._home = f"{home}/"
         self._here = f"{HOST}:{port}"
-        self._token: str | None = secrets.token_urlsafe(BYTES)
-        self._secret = secrets.token_urlsafe(BYTES)
+        self._token: str | None = secret()
+        self._secret = secret()
         self._cookie = f"geocontact-{port}"
 
     @property
@@ -63,12 +80,14 @@ class Gate:
         headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
         if not self._is_here(headers):
             await _refuse(scope, receive, send)
-        elif self._known(headers.get("cookie", "")):
-            await self.app(scope, receive, _with_policy(send))
+        elif scope["path"].startswith(self._home) and self._known(headers.get("cookie", "")):
+            await self.app(scope, receive, self._with_policy(send))
+        elif scope["type"] == "http" and scope["method"] in ("GET", "HEAD") and scope["path"].startswith(RESULT):
+            await self.app(self._at_home(scope), receive, self._with_policy(send))
         elif scope["type"] == "http" and self._exchanged(scope):
-            cookie = f"{self._cookie}={self._secret}; Path=/; HttpOnly; SameSite=Strict"
+            cookie = f"{self._cookie}={self._secret}; Path={self._home}; HttpOnly; SameSite=Strict"
             head = [(b"content-type", b"text/html"), (b"set-cookie", cookie.encode()), (b"cache-control", b"no-store")]
-            await _answer(send, 200, [*head, (b"referrer-policy", b"no-referrer")], ENTER)
+            await _answer(send, 200, [*head, NO_REFERRER], ENTER.format(home=self._home).encode())
         else:
             await _refuse(scope, receive, send)
 
@@ -93,19 +112,23 @@ class Gate:
         self._token = None
         return True
 
+    def _at_home(self, scope: Scope) -> Scope:
+        """The same request below the path of the pages."""
+        path = self._home + scope["path"].removeprefix("/")
+        return {**scope, "path": path, "raw_path": quote(path).encode()}
 
-def _with_policy(send: Send) -> Send:
-    """Answers with the policy of contents."""
+    def _with_policy(self, send: Send) -> Send:
+        """Answers with the policy of contents, that of the window where a page has none of its own."""
 
-    async def sent(message: MutableMapping[str, Any]) -> None:
-        if message["type"] == "http.response.start" and not any(
-            name.lower() == b"content-security-policy" for name, _ in message["headers"]
-        ):
-            more = [(b"content-security-policy", POLICY.encode()), (b"x-content-type-options", b"nosniff")]
-            message = {**message, "headers": [*message["headers"], *more]}
-        await send(message)
+        async def sent(message: MutableMapping[str, Any]) -> None:
+            if message["type"] == "http.response.start":
+                more = [(b"x-content-type-options", b"nosniff"), NO_REFERRER]
+                if not any(name.lower() == b"content-security-policy" for name, _ in message["headers"]):
+                    more.append((b"content-security-policy", POLICY.format(here=self._here).encode()))
+                message = {**message, "headers": [*message["headers"], *more]}
+            await send(message)
 
-    return sent
+        return sent
 
 
 async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from hmac import compare_digest
 from itertools import count
 from pathlib import Path
 
@@ -16,15 +17,20 @@ from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
 from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form
+from geocontact.app.gate import secret
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import Workplace
 from geocontact.cli.command import summary
 
 MOST_RECENT = 12
+MOST_OF_A_NAME = 10_000
 RECORD = "run.json"
 HERE = Path(__file__).parent
-SANDBOX = "sandbox allow-scripts allow-downloads; frame-ancestors 'self'"
-"""Pages of results run their own scripts, but belong to no origin: they reach nothing of the window."""
+SANDBOX = (
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+)
+"""Pages of results run their own scripts, but belong to no origin and load nothing: they reach no server."""
 
 
 class Shared:
@@ -62,20 +68,29 @@ class Shared:
         return found
 
     async def take(self, key: int, name: str, request: Request) -> str:
-        """Keep a file that was dropped; its path."""
+        """Keep a file that was dropped, whole or not at all, in place of none that is there; its path."""
         plain = name.replace("\\", "/").rpartition("/")[2].strip()
         if key not in self._uploads or plain in ("", ".", "..") or "\0" in plain:
             raise HTTPException(404)
         folder = self._uploads[key]
         folder.mkdir(parents=True, exist_ok=True)
-        with (folder / plain).open("wb") as kept:
-            async for piece in request.stream():
-                kept.write(piece)
-        return str(folder / plain)
+        part = folder / f".{secret()}"
+        try:
+            with part.open("wb") as kept:
+                async for piece in request.stream():
+                    kept.write(piece)
+            places = (folder / plain, *(folder / str(k) / plain for k in range(2, MOST_OF_A_NAME)))
+            place = next(each for each in places if not each.exists())
+            place.parent.mkdir(exist_ok=True)
+            return str(part.replace(place))
+        except OSError as error:
+            raise HTTPException(507, str(error.strerror)) from error
+        finally:
+            part.unlink(missing_ok=True)
 
-    def file(self, number: int, name: str) -> Path:
+    def file(self, key: str, name: str) -> Path:
         """A file of a run's results; nothing outside of their folder."""
-        run = next((each for each in self.queue.runs if each.number == number), None)
+        run = next((each for each in self.queue.runs if compare_digest(each.key.encode(), key.encode())), None)
         if run is not None:
             found = (run.out / name).resolve()
             if found.is_relative_to(run.out.resolve()) and found.is_file():
@@ -93,9 +108,9 @@ def add_pages(queue: Queue) -> None:
     async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
         return PlainTextResponse(await shared.take(key, name, request))
 
-    @site.get("/result/{number}/{name:path}")
-    def _result(number: int, name: str) -> FileResponse:
-        return FileResponse(shared.file(number, name), headers={"content-security-policy": SANDBOX})
+    @site.get("/result/{key}/{name:path}")
+    def _result(key: str, name: str) -> FileResponse:
+        return FileResponse(shared.file(key, name), headers={"content-security-policy": SANDBOX})
 
     @site.get("/page/{key}")
     def _page(key: int) -> FileResponse:
@@ -204,7 +219,7 @@ def _recent(queue: Queue) -> None:
     with element("ul"):
         for run in done:
             with element("li"):
-                link(run.out.name, f"/result/{run.number}/report.html", target="_blank")
+                link(run.out.name, run.address, target="_blank")
 
 
 def _run_before(queue: Queue, command: str) -> None:

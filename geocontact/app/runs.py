@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import secrets
 import shutil
 import signal
 import subprocess
@@ -17,10 +18,13 @@ from itertools import count
 from pathlib import Path
 from typing import IO, Literal
 
-from geocontact.cli.main import USAGE_ERROR
+from geocontact.analyses.frame.folder import DRAFT, OWNER
+from geocontact.app.gate import RESULT, secret
+from geocontact.cli.main import FAILURE, USAGE_ERROR
 
 State = Literal["waiting", "running", "done", "refused", "failed", "cancelled"]
 ENDED: tuple[State, ...] = ("done", "refused", "failed", "cancelled")
+HOLD_THEIR_FOLDER: tuple[State, ...] = ("waiting", "running", "done")
 GRACE = 5.0
 """s that a run has to end after it was asked to."""
 MOST_LINES = 500
@@ -57,6 +61,10 @@ class Run:
     said: list[str] = field(default_factory=list)
     began: float = 0.0
     ended: float = 0.0
+    code: int = 0
+    mark: str = field(default_factory=lambda: secrets.token_hex(4))
+    key: str = field(default_factory=secret, repr=False)
+    """Word of the address of its results."""
     process: subprocess.Popen[str] | None = field(default=None, repr=False)
     _counting_since: tuple[float, float] | None = None
 
@@ -75,6 +83,16 @@ class Run:
         """The page of its results, None where there is none."""
         page = self.out / REPORT
         return page if self.state == "done" and page.is_file() else None
+
+    @property
+    def address(self) -> str:
+        """Where the page of its results is served."""
+        return f"{RESULT}{self.key}/{REPORT}"
+
+    @property
+    def complaints(self) -> list[str]:
+        """What it printed on stderr besides warnings, where it did not end well; it may have written results."""
+        return self.said if self.over and self.code != 0 else []
 
     def seconds_left(self) -> float | None:
         """Time left if the rest goes on as fast [s]; None before that is known."""
@@ -104,11 +122,13 @@ class Queue:
     Parameters
     ----------
     folder
-        Where they are started: paths of their words start from it.
+        For results.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.start = Path.cwd()
+        """Where runs are started: relative paths start from here, for them as for who checks their words."""
         self.runs: list[Run] = []
         self._numbers = count(1)
         self._changed = threading.Condition()
@@ -119,6 +139,18 @@ class Queue:
     def add(self, words: Sequence[str], out: Path, title: str) -> Run:
         """A run that begins when those before it have ended."""
         return self.remember(Run(list(words), out, title))
+
+    def add_apart(self, words: Callable[[Path], Sequence[str]], out: Path) -> Run:
+        """A run into `out`, or into the next folder of that name and number where another run has it already."""
+        with self._changed:
+            taken = {_spot(run.out) for run in self.runs if run.state in HOLD_THEIR_FOLDER}
+            if _spot(out) in taken:
+                out = Path(os.path.abspath(out))
+                stem, dash, last = out.name.rpartition("-")
+                base = stem if dash and last.isdigit() else out.name
+                numbered = (out.with_name(f"{base}-{k}") for k in count(2))
+                out = next(each for each in numbered if _spot(each) not in taken and not each.exists())
+            return self.add(words(out), out, out.name)
 
     def remember(self, run: Run) -> Run:
         """Number a run and keep it; one that waits begins in its turn."""
@@ -138,6 +170,7 @@ class Queue:
             self._changed.notify_all()
         if process is not None:
             _end(process)
+            _remove_drafts(run)
         run.ended = time.monotonic()
 
     def close(self) -> None:
@@ -158,17 +191,22 @@ class Queue:
                 run = self._next()
                 if run is None or self._closed.is_set():
                     return
-                _start(run, self.folder)
+                try:
+                    _start(run, self.start)
+                except (OSError, ValueError) as error:  # a folder that is gone, a character that no word can have
+                    run.said.append(f"it cannot be started: {error}")
+                    run.state, run.code, run.ended = "failed", FAILURE, time.monotonic()
+                    continue
             _finish(run)
 
 
 def _start(run: Run, folder: Path) -> None:
-    """Start the process, in a group of its own, so that all of it can be ended."""
+    """Start the process, in a group of its own, so that all of it can be ended; no module of `folder` is imported."""
     run.state, run.began = "running", time.monotonic()
     run.process = subprocess.Popen(
-        [sys.executable, "-m", "geocontact.app.child", *run.words],
+        [sys.executable, "-P", "-m", "geocontact.app.child", *run.words],
         cwd=folder,
-        env=os.environ | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8"},
+        env=os.environ | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8", OWNER: run.mark},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -188,11 +226,18 @@ def _finish(run: Run) -> None:
     reader.start()
     _each_line(process.stderr, run.take)
     reader.join()
-    code = process.wait()
+    run.code = process.wait()
     run.ended = time.monotonic()
     if run.state == "running":
-        wrote = any(line.startswith(WROTE) for line in run.printed)  # a verdict against a device ends with 1 as well
-        run.state = "refused" if code == USAGE_ERROR else "done" if code == 0 or wrote else "failed"
+        run.state = _judged(run)
+
+
+def _judged(run: Run) -> State:
+    """How a run has ended: results may be there beside a verdict against a device or one trial that was refused."""
+    wrote = any(line.startswith(WROTE) for line in run.printed)
+    if run.code == 0 or (wrote and run.code in (FAILURE, USAGE_ERROR)):
+        return "done"
+    return "refused" if run.code == USAGE_ERROR else "failed"
 
 
 def _each_line(stream: IO[str], take: Callable[[str], None]) -> None:
@@ -214,3 +259,16 @@ def _end(process: subprocess.Popen[str]) -> None:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, signal.SIGKILL)
     process.wait()
+
+
+def _remove_drafts(run: Run) -> None:
+    """Remove what a run that was killed had begun to write; by its mark, so nothing of others."""
+    drafts = f"{DRAFT}{run.mark}-*"
+    places = [each.glob(drafts) for each in run.out.absolute().parents]
+    for draft in (*run.out.rglob(drafts), *(found for place in places for found in place)):
+        shutil.rmtree(draft, ignore_errors=True)
+
+
+def _spot(path: Path) -> str:
+    """A path in one spelling."""
+    return os.path.normcase(os.path.abspath(path))

@@ -1,9 +1,14 @@
 const send = async (input, files) => {
-  const target = document.getElementById(input.dataset.target), names = [];
-  for (const file of files) {
+  const target = document.getElementById(input.dataset.target), names = [], failed = [];
+  for (const file of files) try {
     const answer = await fetch(input.dataset.to + '?name=' + encodeURIComponent(file.name), { method: 'POST', body: file });
-    if (answer.ok) names.push(await answer.text());
-  }
+    const said = await answer.text();
+    if (answer.ok) names.push(said); else failed.push(`${file.name} was not taken: ${said}`);
+  } catch (error) { failed.push(`${file.name} was not taken: ${error.message}`); }
+  input.value = '';
+  const row = target.closest('.field');
+  const bad = row.querySelector('.failed') ?? row.appendChild(Object.assign(document.createElement('p'), { className: 'bad failed', role: 'alert' }));
+  bad.textContent = failed.join('; ');
   if (!names.length) return;
   const many = target.tagName === 'TEXTAREA';
   target.value = many ? [target.value, ...names].filter(Boolean).join('\n') : names[0];
@@ -19,7 +24,7 @@ for (const kind of ['dragover', 'dragleave', 'drop']) document.addEventListener(
 });
 const plain = e => !(e.ctrlKey || e.metaKey || e.shiftKey || e.altKey || e.button);
 const arrive = (address, title) => {
-  history.pushState(null, '', address);
+  history.pushState(null, '', (window.path_prefix || '') + address);
   document.title = title;
   scrollTo(0, 0);
   document.querySelector('h1')?.focus();

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from itertools import count
+from math import isfinite
 from pathlib import Path
 
 from geocontact.analyses.frame.calls import key
 from geocontact.app.fields import Field, Form
 from geocontact.cli.command import FORMS
+from geocontact.io.text.file_preflight import read_bytes
 
 HEAD = """\
 # A study of one trial. To make it one of many: name the files by a pattern, files = "data/{{subject}}_{{trial}}.csv",
@@ -28,6 +31,18 @@ def study_of(form: Form, folder: Path) -> str:
     return HEAD.format(command=json.dumps(form.command)) + "\n".join(lines) + "\n"
 
 
+def written_study(file: Path, described: str) -> Path:
+    """Write a description into `file`, or into the next of that name where one stands that says something else."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    numbered = (file.with_stem(f"{file.stem}-{k}") for k in count(2))
+    place = file
+    content = described.encode()
+    while place.exists() and not (place.is_file() and read_bytes(place) == content):
+        place = next(numbered)
+    place.write_bytes(content)
+    return place
+
+
 def _toml(one: Field, form: Form, folder: Path) -> str:
     """A value as TOML writes it: a number where the option is one, a list where there may be several."""
     value = form.value(one)
@@ -39,7 +54,7 @@ def _toml(one: Field, form: Form, folder: Path) -> str:
     if one.several:
         return json.dumps(texts, ensure_ascii=False)
     kind = one.one.typed.kind if one.one.typed is not None else one.one.kind
-    return texts[0] if kind in (int, float) and _is_toml_number(texts[0]) else json.dumps(texts[0], ensure_ascii=False)
+    return (kind in (int, float) and _number(texts[0])) or json.dumps(texts[0], ensure_ascii=False)
 
 
 def _absolute(text: str, folder: Path) -> str:
@@ -47,8 +62,12 @@ def _absolute(text: str, folder: Path) -> str:
     return (folder / text).as_posix() if (folder / text).exists() else text
 
 
-def _is_toml_number(text: str) -> bool:
-    try:
-        return repr(float(text)) not in ("inf", "-inf", "nan") and text[:1] not in "+."
-    except ValueError:
-        return False
+def _number(text: str) -> str:
+    """A number as TOML writes it, which knows no 05, 5. or .5; "" for what is none."""
+    for kind in (int, float):
+        try:
+            found = kind(text)
+        except ValueError:
+            continue
+        return repr(found) if isfinite(found) else ""
+    return ""

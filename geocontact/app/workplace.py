@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from itertools import count
 from pathlib import Path
 
 from nicegui import background_tasks, ui
@@ -17,12 +16,11 @@ from geocontact.app.fields import Form, shown
 from geocontact.app.file_view import FileView
 from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
-from geocontact.app.study import study_of
+from geocontact.app.study import study_of, written_study
 from geocontact.cli.folders import OUT
 
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
-NEXT_TO = "report.html"
 
 
 class Workplace:
@@ -63,14 +61,12 @@ class Workplace:
 
     def run(self) -> None:
         """A run of what is filled in; its results lie in a folder of their own."""
-        self.words = self.form.words(self.out)
-        own = [run for run in self.queue.runs if run.out == self.out]
-        if own and own[-1].state in ("done", "waiting", "running"):
-            self.out = _next_folder(self.out)
+        run = self.queue.add_apart(self.form.words, self.out)
+        self.words = run.words
+        if run.out != self.out:
+            self.out = run.out
             self.folder.props["defaultValue"] = str(self.out)
             ui.run_javascript(f"document.getElementById('{self.folder.html_id}').value = {json.dumps(str(self.out))}")
-            self.words = self.form.words(self.out)
-        run = self.queue.add(self.words, self.out, self.out.name)
         self._panels[run.number] = RunPanel(run, self)
         self._dirty = True
         self._look()
@@ -85,16 +81,15 @@ class Workplace:
             text("h2", run.title)
             element(
                 "iframe",
-                src=f"/result/{run.number}/{NEXT_TO}",
+                src=run.address,
                 title=f"results in {run.title}",
                 sandbox="allow-scripts allow-downloads",
             )
 
     def make_study(self) -> None:
-        """Write the study that the form begins, and say how it is run."""
-        file = self.queue.folder / f"{self.out.name}-study.toml"
-        described = study_of(self.form, self.queue.folder)
-        file.write_text(described, encoding="utf-8")
+        """Write the study that the form begins beside those that are there, and say how it is run."""
+        described = study_of(self.form, self.queue.start)
+        file = written_study(self.queue.folder / f"{self.out.name}-study.toml", described)
         self.study.text = f"{described}\n# {shown(['cohort', str(file), OUT, str(file.parent / file.stem)])}"
 
     def _beside(self) -> None:
@@ -103,6 +98,7 @@ class Workplace:
             label = text("label", "folder for the results")
             with element("div", "in"):
                 self.folder = element("input", type="text", defaultValue=str(self.out), spellcheck="false")
+                self.folder.on("change", lambda e: self._set_out(str(e.args)), js_handler=VALUE)
                 self.folder.on("input", lambda e: self._set_out(str(e.args)), js_handler=VALUE, throttle=LOOK)
             label.props["for"] = self.folder.html_id
         with element("div", "links"):
@@ -183,7 +179,7 @@ class RunPanel:
         """Show what is new; whether the run has ended since the last look."""
         run = self.run
         left = run.seconds_left()
-        seen = (run.state, run.stage, run.share, len(run.warnings), len(run.printed), left and round(left))
+        seen = (run.state, run.stage, run.share, len(run.warnings), len(run.printed), run.code, left and round(left))
         if seen == self._seen:
             return False
         ended = run.over and self._seen[:1] != seen[:1]
@@ -193,8 +189,10 @@ class RunPanel:
         self._bar.props.set_optional("value", run.share)
         self._lines.clear()
         with self._lines:
-            for line in (*(f"warning: {each}" for each in run.warnings), *run.printed, *filter(None, [run.message])):
-                text("li", line, "bad" if line == run.message else "")
+            for line in (*(f"warning: {each}" for each in run.warnings), *run.printed):
+                text("li", line)
+            for line in run.complaints:
+                text("li", line, "bad")
         if ended:
             self._ended()
         return ended
@@ -211,7 +209,7 @@ class RunPanel:
             text("button", "show beside", type="button", aria_label=f"show {self.run.title} beside").on(
                 "click", lambda: self._place.show(self.run, beside=True)
             )
-            link("in a tab of its own", f"/result/{self.run.number}/{NEXT_TO}", target="_blank")
+            link("in a tab of its own", self.run.address, target="_blank")
 
     async def _end(self) -> None:
         from nicegui import run as aside
@@ -233,10 +231,3 @@ def _state(run: Run, left: float | None) -> str:
 
 def _duration(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100.0 else f"{seconds / 60.0:.0f} min"
-
-
-def _next_folder(out: Path) -> Path:
-    """The next folder of that name and number that is not there: area-2 after area-1."""
-    stem, dash, last = out.name.rpartition("-")
-    base = stem if dash and last.isdigit() else out.name
-    return next(found for k in count(2) if not (found := out.with_name(f"{base}-{k}")).exists())

@@ -65,6 +65,7 @@ def window(browser: Browser, served: tuple[str, Path]) -> Iterator[Window]:
     tab.on("request", lambda request: found.requests.append(request.url))
     tab.goto(address)
     tab.wait_for_selector("h1")
+    found.home = tab.url.rstrip("/")
     tab.close()
     yield found
     context.close()

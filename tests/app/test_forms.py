@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import shlex
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +14,18 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.analyses.frame import quantities
+from geocontact.analyses.frame.marks import Requires
 from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
 from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
-from geocontact.app.study import study_of
+from geocontact.app.study import study_of, written_study
+from geocontact.cli.command import spelling
+from geocontact.cli.folders import calls_in_folder
 from geocontact.cli.main import app
 from geocontact.data.errors import InputError
+from tests.cli.test_tool_folders import leg, opencap, put
 
+__all__ = ["leg"]
 COMMANDS = sorted(each.command for each in ENTRIES if each.command)
 
 
@@ -149,6 +156,71 @@ def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
         calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
 
 
+def test_an_input_that_is_missing_is_not_taken_by_the_next_one(home: Path) -> None:
+    form = Form.of_words(words_of("area", home))
+    del form.values["moving"]
+    message = calls.checked(form.words("out"), "area", "out")[1]
+    at = form.at(message)
+    assert "MOVING is missing" in message and at is not None and at.name == "moving"
+
+
+def test_a_path_is_found_whole_before_by_its_name(home: Path) -> None:
+    form = Form("area", {"moving": ".", "fixed": "b/m.stl", "motion": "a/m.stl"})
+    for message, name in (("a/m.stl: is no motion", "motion"), ("b/m.stl: is damaged", "fixed"), ("x.csv: is", "")):
+        at = form.at(message)
+        assert (at.name if at is not None else "") == name, message
+
+
+def reached(form: Form, name: str, on_the_way: tuple[str, ...] = ()) -> bool:
+    """Whether somebody who fills in only what is enabled can fill in this field; what it needs is filled in."""
+    one = next(each for each in form.fields if each.name == name)
+    for rule in one.one.rules:
+        if form.without_effect(one) and isinstance(rule, Requires):
+            for other in filter(None, (rule.other, rule.alternative)):
+                if other not in on_the_way and reached(form, other, (*on_the_way, name)):
+                    kind = next(each.kind for each in form.fields if each.name == other)
+                    form.values[other] = True if kind == "flag" else "x"
+                    break
+    return not form.without_effect(one)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_field_can_be_reached_from_an_empty_form(command: str) -> None:
+    """Those for files of a kind need such a file."""
+    names = [one.name for one in fields_of(command) if not one.one.endings]
+    assert [name for name in names if not reached(Form(command), name)] == []
+
+
+@pytest.mark.parametrize("name", ["parquet", "excel_safe", "no_overwrite"])
+def test_forms_of_tables_are_written_in_python_too(name: str, home: Path, tmp_path: Path) -> None:
+    """The lines are run: they write what the command line writes with the same words."""
+    form = Form.of_words(words_of("elbow design", home))
+    form.values[name] = True
+    out = tmp_path / "out"
+    lines = calls.python_lines(form.words(out), "elbow design", out)
+    exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    assert (name == "parquet") == bool(list(out.glob("*.parquet")))
+    if name == "no_overwrite":
+        with pytest.raises(InputError, match="holds results already"):
+            exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    else:
+        assert f"{name}=True" in lines
+
+
+def test_a_folder_takes_the_place_of_the_recording(leg: Path, tmp_path: Path) -> None:
+    """What the command line finds in it is not missing in the form; each trial has its lines and its folder."""
+    folder, out = opencap(leg, tmp_path / "session"), tmp_path / "out"
+    put(leg, folder, ("walk.mot", "OpenSimData/Kinematics/walk2.mot"), ("walk.trc", "MarkerData/walk2.trc"))
+    words = Form("ik", {fields_of("ik")[0].name: str(folder)}).words(out)
+    found = calls_in_folder(words, spelling)
+    lines, wrong = calls.checked(words, "ik", out)
+    assert wrong == "" and len(found) > 1 and lines.count("gc.inverse_kinematics(") == len(found)
+    assert all(str(Path("MarkerData") / name) in lines and str(out / name) in lines for name in ("walk1", "walk2"))
+    assert lines.count("leg_scaled.osim") == len(found)
+    (folder / "OpenSimData" / "Model" / "leg_scaled.osim").unlink()
+    assert calls.checked(words, "ik", out)[0] == ""
+
+
 def test_the_names_of_options_are_not_found_in_longer_ones() -> None:
     form = Form("area")
     at = form.at("--unit-moving: 'x' is not a unit")
@@ -169,3 +241,27 @@ def test_a_study_of_a_form_is_read_by_cohort(command: str, home: Path, tmp_path:
     known = {one.spelled.key or one.name: one for one in declared(options)}
     given = {known[name].name: known[name].read(value) for name, value in study.options.items()}
     assert study.analysis == command and options(**given) == parsed(words)
+
+
+@pytest.mark.parametrize(
+    "text", ["05", "5.", "-.5", ".5", "+5", "-5", "1e3", "1_000", "7", "0.25", "inf", "nan", "0x1F", "five"]
+)
+def test_numbers_in_a_study_are_those_that_were_typed(text: str) -> None:
+    """Spellings that TOML does not know as well; what is no finite number stays as it was typed."""
+    one = next(each for each in fields_of("area") if each.one.kind is float or str(each.one.kind).startswith("float"))
+    found = tomllib.loads(study_of(Form("area", {one.name: text}), Path()))["options"]
+    value = found.get(one.spelled.removeprefix("--").replace("-", "_"), found.get(one.name))
+    try:
+        expected: float | str = float(text) if math.isfinite(float(text)) else text
+    except ValueError:
+        expected = text
+    assert value == expected
+
+
+def test_a_study_that_was_edited_stays(tmp_path: Path) -> None:
+    file = tmp_path / "new" / "area-1-study.toml"
+    assert written_study(file, "a = 1\n") == written_study(file, "a = 1\n") == file
+    file.write_text("mine", encoding="utf-8")
+    again = written_study(file, "a = 1\n")
+    assert again.name == "area-1-study-2.toml" and again.read_text("utf-8") == "a = 1\n"
+    assert file.read_text("utf-8") == "mine" and written_study(file, "a = 1\n") == again

@@ -12,6 +12,7 @@ from geocontact.app.gate import Gate
 
 PORT = 4711
 HERE = f"127.0.0.1:{PORT}"
+HOME = "/a-secret"
 Message = MutableMapping[str, Any]
 
 
@@ -20,11 +21,12 @@ async def behind(scope: Message, receive: Any, send: Any) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.accept"})
         return
-    await send({"type": "http.response.start", "status": 200, "headers": []})
+    own = [(b"content-security-policy", b"default-src 'none'")] if "/result/" in scope["path"] else []
+    await send({"type": "http.response.start", "status": 200, "headers": own})
     await send({"type": "http.response.body", "body": b"inside"})
 
 
-def asked(gate: Gate, path: str = "/", kind: str = "http", **headers: str) -> list[Message]:
+def asked(gate: Gate, path: str = f"{HOME}/", kind: str = "http", method: str = "GET", **headers: str) -> list[Message]:
     """What a request gets."""
     sent: list[Message] = []
 
@@ -38,6 +40,7 @@ def asked(gate: Gate, path: str = "/", kind: str = "http", **headers: str) -> li
     told = {"host": HERE} | headers
     scope = {
         "type": kind,
+        "method": method,
         "path": parts.path,
         "query_string": parts.query.encode(),
         "headers": [(name.encode(), value.encode()) for name, value in told.items()],
@@ -53,7 +56,7 @@ def entered(gate: Gate) -> str:
     head = dict(answer[0]["headers"])
     assert answer[0]["status"] == 200 and b"inside" not in answer[1]["body"]
     cookie = head[b"set-cookie"].decode()
-    assert {"HttpOnly", "SameSite=Strict", "Path=/"} <= set(cookie.split("; "))
+    assert {"HttpOnly", "SameSite=Strict", f"Path={HOME}/"} <= set(cookie.split("; "))
     return cookie.partition(";")[0]
 
 
@@ -67,7 +70,7 @@ def refused(answer: list[Message]) -> bool:
 
 
 def test_the_token_is_exchanged_once() -> None:
-    gate = Gate(behind, PORT)
+    gate = Gate(behind, PORT, HOME)
     address = gate.address
     cookie = entered(gate)
     assert asked(gate, cookie=cookie)[1]["body"] == b"inside"
@@ -75,17 +78,18 @@ def test_the_token_is_exchanged_once() -> None:
     assert "None" in gate.address
 
 
-@pytest.mark.parametrize("path", ["/", "/form/area", "/_nicegui/3.18.0/static/nicegui.css", "/result/1/report.html"])
+@pytest.mark.parametrize("path", ["/", "/form/area", "/_nicegui/3.18.0/static/nicegui.css", "/results/1", "/upload/1"])
 @pytest.mark.parametrize("kind", ["http", "websocket"])
 def test_nothing_is_served_without_the_cookie(path: str, kind: str) -> None:
-    gate = Gate(behind, PORT)
+    gate = Gate(behind, PORT, HOME)
+    path = f"{HOME}{path}"
     for cookie in ("", f"geocontact-{PORT}=", f"geocontact-{PORT}=guess", "geocontact-1=x; a", "=;=,;\x00"):
         assert refused(asked(gate, path, kind, cookie=cookie)), cookie
     assert refused(asked(gate, f"{path}?token=", kind)) and refused(asked(gate, f"{path}?token=guess", kind))
 
 
 def test_another_host_or_origin_is_refused_with_the_cookie_too() -> None:
-    gate = Gate(behind, PORT)
+    gate = Gate(behind, PORT, HOME)
     cookie = entered(gate)
     for kind in ("http", "websocket"):
         for host in (
@@ -95,20 +99,46 @@ def test_another_host_or_origin_is_refused_with_the_cookie_too() -> None:
             f"localhost:{PORT}",
             f"127.0.0.1:{PORT}.evil",
         ):
-            assert refused(asked(gate, "/", kind, cookie=cookie, host=host)), host
+            assert refused(asked(gate, kind=kind, cookie=cookie, host=host)), host
         for origin in ("https://evil.example", "null", f"http://localhost:{PORT}", "http://127.0.0.1:1"):
-            assert refused(asked(gate, "/", kind, cookie=cookie, origin=origin)), origin
-        assert not refused(asked(gate, "/", kind, cookie=cookie, origin=f"http://{HERE}"))
+            assert refused(asked(gate, kind=kind, cookie=cookie, origin=origin)), origin
+        assert not refused(asked(gate, kind=kind, cookie=cookie, origin=f"http://{HERE}"))
 
 
 def test_a_token_at_another_host_stays_valid() -> None:
-    gate = Gate(behind, PORT)
+    gate = Gate(behind, PORT, HOME)
     assert refused(asked(gate, gate.address, host="evil.example"))
     assert entered(gate)
 
 
 def test_pages_may_load_nothing_from_elsewhere() -> None:
-    gate = Gate(behind, PORT)
+    gate = Gate(behind, PORT, HOME)
     head = dict(asked(gate, cookie=entered(gate))[0]["headers"])
-    policy = head[b"content-security-policy"].decode()
-    assert "default-src 'self'" in policy and "http" not in policy and "*" not in policy
+    named = [each.split() for each in head[b"content-security-policy"].decode().split("; ")]
+    known = {"'self'", "'none'", "'unsafe-inline'", "'unsafe-eval'", "data:", "blob:"}
+    assert named[0] == ["default-src", "'self'"] and len({each[0] for each in named}) == len(named)
+    for directive, *sources in named:
+        assert set(sources) <= (known | {f"ws://{HERE}"} if directive == "connect-src" else known), directive
+
+
+def test_a_cookie_is_worth_nothing_without_the_path() -> None:
+    """A server at another port of this host gets the cookie, if at all, but not the secret below which pages lie."""
+    gate = Gate(behind, PORT, HOME)
+    cookie = entered(gate)
+    for path in ("/", "/form/area", "/upload/1?name=a", "/_nicegui_ws/socket.io/", HOME, f"{HOME}x/", "/A-secret/"):
+        for kind in ("http", "websocket"):
+            assert refused(asked(gate, path, kind, cookie=cookie)), path
+    head = dict(asked(gate, cookie=cookie)[0]["headers"])
+    assert head[b"referrer-policy"] == b"no-referrer", "nobody hears the secret from a link"
+
+
+def test_results_need_no_cookie_but_this_host_and_keep_their_policy() -> None:
+    gate = Gate(behind, PORT, HOME)
+    answer = asked(gate, "/result/key/1/report.html")
+    assert answer[1]["body"] == b"inside"
+    kept = [value for name, value in answer[0]["headers"] if name == b"content-security-policy"]
+    assert kept == [b"default-src 'none'"] and (b"x-content-type-options", b"nosniff") in answer[0]["headers"]
+    assert refused(asked(gate, "/result/key/report.html", host="evil.example"))
+    assert refused(asked(gate, "/result/key/report.html", origin="null"))
+    assert refused(asked(gate, "/result/key/report.html", method="POST"))
+    assert refused(asked(gate, "/result/key/report.html", "websocket"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -12,10 +13,11 @@ from pathlib import Path
 
 import pytest
 
-from geocontact.app import samples
+from geocontact.app import calls, runs, samples
 from geocontact.app.fields import Form, shown
 from geocontact.app.runs import Queue, Run
 from geocontact.app.sample_files import write_files
+from geocontact.cli.demo import sample_folder
 
 PATIENCE = 240.0  # s on a busy machine
 
@@ -59,6 +61,68 @@ def test_what_is_refused_says_why_and_warnings_come(queue: Queue, tmp_path: Path
     assert "too large" in wrong.message and not (tmp_path / "a").exists() and wrong.page is None
 
 
+def test_no_module_of_a_folder_is_run_and_relative_paths_start_where_the_window_does(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the window was started and where its results lie somebody left a module; the form and the run read one
+    file."""
+    home = tmp_path / "results"
+    home.mkdir()
+    for folder in (tmp_path, home):
+        (folder / "cyclopts.py").write_text(f"open({str(tmp_path / 'was run')!r}, 'w')\n", encoding="utf-8")
+    (tmp_path / "cup.stl").write_bytes((sample_folder() / "cup_r24.stl").read_bytes())
+    monkeypatch.chdir(tmp_path)
+    queue = Queue(home)
+    try:
+        typed = words("fit", home, "fit", mesh="cup.stl")
+        assert "cup.stl" in typed and calls.checked(typed, "fit", home / "fit")[1] == ""
+        until(queue.add(typed, home / "fit", "fit"), "done")
+    finally:
+        queue.close()
+    assert not (tmp_path / "was run").exists()
+
+
+def test_what_cannot_be_started_fails_and_the_next_one_runs(
+    queue: Queue, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wrong = queue.add(["fit", "a\0b.stl"], tmp_path / "a", "a")
+    until(wrong, "failed")
+    assert "null" in wrong.message and wrong.complaints == [wrong.message]
+    right, queue.start = queue.start, tmp_path / "gone"
+    gone = queue.add(words("fit", tmp_path, "b"), tmp_path / "b", "b")
+    until(gone, "failed")
+    assert "gone" in gone.message
+    queue.start = right
+    until(queue.add(words("fit", tmp_path, "c"), tmp_path / "c", "c"), "done")
+
+
+def test_quick_runs_have_a_folder_each(queue: Queue, tmp_path: Path) -> None:
+    """Three at once, one of another page that shows the same folder, and one that spells it in another way."""
+    (tmp_path / "fit-4").mkdir()
+    form = Form.of_words(samples.sample("fit", tmp_path).words)
+    asked = [tmp_path / "fit-1", tmp_path / "fit-1", tmp_path / "fit-2", tmp_path / "x" / ".." / "fit-1"]
+    found = [queue.add_apart(form.words, out) for out in asked]
+    assert [run.out.name for run in found] == ["fit-1", "fit-2", "fit-3", "fit-5"]
+    assert all(run.words[-1] == f"--out={run.out}" for run in found)
+    queue.cancel(found[-1])
+    assert queue.add_apart(form.words, found[-1].out).out == found[-1].out  # nothing was written there
+
+
+@pytest.mark.parametrize(
+    ("code", "wrote", "state"),
+    [
+        *((0, False, "done"), (1, True, "done"), (2, True, "done"), (2, False, "refused"), (1, False, "failed")),
+        *((-9, True, "failed"), (130, True, "failed")),
+    ],
+)
+def test_results_count_before_the_code(code: int, wrote: bool, state: str) -> None:
+    """A study with one wrong trial ends with 2 and has results; what it said of that trial is shown."""
+    printed = ["a", "results in out: report.html"] if wrote else ["a"]
+    run = Run([], Path("out"), "x", state="running", code=code, printed=printed, said=["trial_3.csv: is empty"])
+    run.state = runs._judged(run)
+    assert run.state == state and run.complaints == (run.said if code else [])
+
+
 def test_how_far_it_is_and_the_time_left() -> None:
     run = Run([], Path("out"), "x", state="running")
     for line in ("warning: look", "area: frames …", "pairs: 2 of 10 done …"):
@@ -97,6 +161,26 @@ def test_cancel_ends_all_processes_and_leaves_nothing(queue: Queue, tmp_path: Pa
     until(first, "cancelled")
     assert not alive(group(process.pid))
     assert sorted(tmp_path.rglob("*")) == before and second.process is None
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_a_run_that_must_be_killed_leaves_nothing(
+    queue: Queue, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is stopped while its draft is there, so that it does not hear that it is to end; a draft of others stays."""
+    monkeypatch.setattr(runs, "GRACE", 0.5)
+    others = tmp_path / ".geocontact-0123456789abcdef"
+    others.mkdir()
+    out = tmp_path / "benchmark"
+    run = queue.add(["gap", "benchmark", "--system=all", "--cases=5", "--jobs=2", f"--out={out}"], out, "benchmark")
+    end = time.monotonic() + PATIENCE
+    while len(list(tmp_path.glob(".geocontact-*"))) < 2:
+        assert time.monotonic() < end and not run.over, run.said
+        time.sleep(0.02)
+    assert run.process is not None
+    os.kill(run.process.pid, signal.SIGSTOP)
+    queue.cancel(run)
+    assert [each.name for each in tmp_path.glob(".geocontact-*")] == [others.name] and not out.exists()
 
 
 def group(leader: int) -> list[int]:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import http.client
+import http.server
 import json
 import os
 import subprocess
 import sys
+import threading
 import time
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 PATIENCE = 1200.0  # s on a busy machine, of a run
+SOCKET = "/_nicegui_ws/socket.io/?EIO=4&transport=polling"
 QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
 RESULTS_OF_SPEED = {"gap benchmark": ["benchmark.json", "benchmark.md"]}
 """Files that hold the date and how long the cases took, which is one of the results there."""
@@ -133,7 +137,9 @@ def test_a_second_user_is_refused(window: Window, browser: Browser) -> None:
     cookie = "; ".join(f"{each['name']}={each['value']}" for each in window.context.cookies())
     inside = [url for url in window.requests if "_nicegui" in url and url.endswith((".js", ".css"))]
     assert inside
-    for path in ("/", urlsplit(inside[0]).path, "/_nicegui_ws/socket.io/?EIO=4&transport=polling", "/upload/1?name=a"):
+    home = urlsplit(window.home).path
+    known = (f"{home}/", urlsplit(inside[0]).path, *(f"{home}{path}" for path in (SOCKET, "/upload/1?name=a")))
+    for path in (*known, "/", "/form/area"):
         for headers in (
             {},
             {"Host": "evil.example", "Cookie": cookie},
@@ -145,6 +151,66 @@ def test_a_second_user_is_refused(window: Window, browser: Browser) -> None:
             found = connection.getresponse()
             assert found.status == 403 and b"<" not in found.read(), (path, headers)
             connection.close()
+
+
+def test_a_server_at_another_port_hears_no_secret(window: Window) -> None:
+    """The browser is led there and back to a page of it: neither cookie nor path comes along."""
+    heard: list[str] = []
+
+    class Other(http.server.BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            heard.append(f"{self.path} {self.headers}")
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(b"<h1>other</h1>")
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    with http.server.HTTPServer(("127.0.0.1", 0), Other) as other:
+        threading.Thread(target=other.serve_forever, daemon=True).start()
+        tab = window.tab()
+        tab.evaluate(f"location.href = 'http://127.0.0.1:{other.server_port}/'")
+        tab.wait_for_url(f"**:{other.server_port}/")
+        tab.reload()
+        tab.close()
+        other.shutdown()
+    secrets = [urlsplit(window.home).path.strip("/"), *(each["value"] for each in window.context.cookies())]
+    assert len(heard) > 1 and len(secrets) == 2 and all(map(len, secrets))
+    assert not [line for line in heard if any(secret in line for secret in secrets)]
+
+
+def test_a_page_of_results_reaches_its_neighbours_and_no_server(window: Window, tmp_path: Path) -> None:
+    """A foreign report: its link to a page beside it works, what it asks of servers is not sent."""
+    out = window.folder / "elbow-design-foreign"
+    run_words([*samples.sample("elbow design", window.folder).words, f"--out={out}"], window.folder)
+    tab = window.tab("form/elbow.design?sample=1")
+    tab.get_by_label("folder for the results").fill(str(out))
+    until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('foreign')", 20.0)
+    tab.get_by_role("button", name="Run", exact=True).click()
+    assert ": done" in ended(tab)
+    address = str(tab.locator(".run a").get_attribute("href"))
+    tab.close()
+    (out / "deep").mkdir()
+    (out / "deep" / "report.html").write_text("<h1>deep</h1>", encoding="utf-8")
+    asks = f"""<h1>foreign</h1><a href="deep/report.html">deep</a><script>
+      const say = what => {{ document.title += what; }};
+      fetch('/').then(() => say('fetched '), () => say('refused '));
+      new Image().src = '{window.home}/form/area';
+      document.title += document.referrer + ' ' + origin + ' ';
+    </script>"""
+    (out / "report.html").write_text(asks, encoding="utf-8")
+    asked: list[str] = []
+    tab = window.context.new_page()
+    tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).path))
+    tab.goto(f"{window.home[: -len(urlsplit(window.home).path)]}{address}")
+    until(tab, "/refused|fetched/.test(document.title)", 20.0)
+    assert "refused" in tab.title() and "null" in tab.title()
+    tab.get_by_role("link", name="deep").click()
+    tab.wait_for_url("**/deep/report.html")
+    assert tab.locator("h1").inner_text() == "deep"
+    assert {path for path in asked if path != "/favicon.ico"} == {address, address.replace("report", "deep/report")}
+    tab.close()
 
 
 def test_it_listens_to_this_machine_only(window: Window) -> None:
@@ -213,8 +279,8 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     tab.get_by_role("button", name="Run", exact=True).click()
     assert ": done" in ended(tab)
     first = tab.locator(".run strong").last.text_content() or ""
-    tab.locator('[name="limit"]').fill("8")
-    tab.wait_for_timeout(600)
+    tab.locator('[name="limit"]').fill("7")
+    tab.locator('[name="limit"]').fill("8")  # Run follows at once
     tab.get_by_role("button", name="Run", exact=True).click()
     until(tab, "document.querySelectorAll('.run').length === 2", 20.0)
     second = ended(tab)
@@ -229,7 +295,9 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     tab.get_by_role("button", name="make a study of this").click()
     until(tab, "document.querySelector('pre[aria-label=study]').textContent.includes('analysis')", 20.0)
     files = sorted(window.folder.glob("elbow-design-*-study.toml"))
-    assert files and 'limit = "8"' not in files[-1].read_text("utf-8").partition("[options]")[0]
+    assert files and tomllib.loads(files[-1].read_text("utf-8"))["options"]["limit"] in (8, "8")
+    record = json.loads((window.folder / second.partition(":")[0] / "run.json").read_text("utf-8"))
+    assert float(record["options"]["limit"]) == 8.0
     tab.close()
 
 
@@ -326,6 +394,29 @@ def test_a_mat_is_recognised_and_what_is_no_mesh_is_said_at_once(window: Window,
     said = drop(tab, "surface", broken)
     assert "no triangles" in said or "no faces" in said, said
     assert tab.locator(".content .refused").count() == 1
+    tab.close()
+
+
+def test_two_files_of_one_name_stay_two(window: Window, tmp_path: Path) -> None:
+    """a/m.stl as moving and b/m.stl as fixed; a file that cannot be taken is said at its field."""
+    tab = window.tab("form/area")
+    kept = []
+    for name in ("moving", "fixed"):
+        file = tmp_path / name / "m.stl"
+        file.parent.mkdir()
+        file.write_text(name, encoding="utf-8")
+        tab.get_by_label(f"choose a file for {name}", exact=True).set_input_files(file)
+        until(tab, f"document.querySelector('[name={name}]').value.endsWith('m.stl')", 20.0)
+        kept.append(Path(tab.locator(f'[name="{name}"]').input_value()))
+    assert [each.read_text("utf-8") for each in kept] == ["moving", "fixed"]
+    tab.route("**/upload/**", lambda route: route.abort())
+    tab.get_by_label("choose a file for motion", exact=True).set_input_files(file)
+    until(
+        tab,
+        "document.querySelector('[name=motion]').closest('.field').textContent.includes('m.stl was not taken')",
+        20.0,
+    )
+    assert tab.locator('[name="motion"]').input_value() == ""
     tab.close()
 
 

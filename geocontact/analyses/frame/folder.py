@@ -20,6 +20,10 @@ from geocontact.analyses.frame.words import counted
 from geocontact.data.errors import OF_THE_MACHINE, InputError
 
 RUN = "run.json"
+DRAFT = ".geocontact-"
+"""How the names of folders begin that are written into before they are moved."""
+OWNER = "GEOCONTACT_DRAFTS_OF"
+"""Variable of the environment with a word for these names, by which who ends a process finds its drafts."""
 
 
 def digest(file: Path) -> str:
@@ -177,7 +181,8 @@ def written_whole(out: Path, overwrite: bool = True) -> Iterator[Path]:
         if folder.exists() and not folder.is_dir():
             raise InputError(folder, "", "is a file", "`out` names a folder")
     base = next(folder for folder in (out, *out.absolute().parents) if folder.is_dir())
-    draft = base / f".geocontact-{secrets.token_hex(8)}"
+    owner = f"{name}-" if (name := os.environ.get(OWNER, "")).isalnum() else ""
+    draft = base / f"{DRAFT}{owner}{secrets.token_hex(8)}"
     _drafts.add(draft)  # before it is there: whoever is terminated in between leaves nothing behind
     try:
         draft.mkdir(mode=0o700)

@@ -1,0 +1,101 @@
+"""The window's process: how it ends, and a port that is taken."""
+
+from __future__ import annotations
+
+import http.client
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from geocontact.app.server import _listening
+from geocontact.data.errors import InputError
+from tests.app.conftest import ENTRY
+
+PATIENCE = 120.0  # s on a busy machine
+
+
+def started(folder: Path) -> tuple[subprocess.Popen[str], str, int]:
+    """A window that is served, its process group, and its address."""
+    command = [sys.executable, "-c", ENTRY, "app", "--no-browser", "--out", str(folder / "results")]
+    process = subprocess.Popen(
+        command,
+        env=os.environ | {"TMPDIR": str(folder)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    address = process.stdout.readline().strip()
+    return process, address, urlsplit(address).port or 0
+
+
+def got(port: int, path: str, **headers: str) -> tuple[str, str]:
+    """Cookie and text of a page."""
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
+    connection.request("GET", path, headers=headers)
+    answer = connection.getresponse()
+    text = answer.read().decode("utf-8")
+    connection.close()
+    assert answer.status == 200, text
+    return answer.headers.get("set-cookie", "").partition(";")[0], text
+
+
+def children(parent: int) -> list[int]:
+    """Processes that a process has started and that still run."""
+    found = subprocess.run(["ps", "-eo", "ppid=,pid=,stat="], capture_output=True, text=True).stdout
+    rows = [line.split() for line in found.splitlines()]
+    return [int(pid) for ppid, pid, state in rows if int(ppid) == parent and not state.startswith("Z")]
+
+
+def running(process: int) -> bool:
+    state = subprocess.run(["ps", "-o", "stat=", "-p", str(process)], capture_output=True, text=True).stdout
+    return bool(state.strip()) and not state.startswith("Z")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+@pytest.mark.parametrize(("how", "code"), [("SIGINT", 0), ("SIGTERM", 143), ("SIGHUP", 129)])
+def test_it_ends_with_its_runs_and_its_folder(how: str, code: int, tmp_path: Path) -> None:
+    """A form whose sample reads results of another one has begun that run."""
+    process, address, port = started(tmp_path)
+    with process:
+        cookie, entrance = got(port, address.partition(str(port))[2])
+        home = re.search(r"url=(/[^\"]+/)", entrance)
+        assert home is not None and list(tmp_path.glob("geocontact-app-*"))
+        got(port, f"{home[1]}form/shoulder.compare?sample=1", Cookie=cookie)
+        end = time.monotonic() + PATIENCE
+        while not (runs := children(process.pid)):
+            assert time.monotonic() < end and process.poll() is None
+            time.sleep(0.02)
+        process.send_signal(getattr(signal, how))
+        assert process.wait(PATIENCE) == code
+        said = process.stderr.read() if process.stderr is not None else ""
+    assert not any(map(running, runs)) and "nothing was written" not in said and "Traceback" not in said, said
+    assert not list(tmp_path.glob("geocontact-app-*")) and not list(tmp_path.rglob(".geocontact-*"))
+
+
+def test_a_port_that_is_taken_is_said() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        with pytest.raises(InputError, match=r"--port.*cannot be used"):
+            _listening(other.getsockname()[1])
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there it would let two listen")
+def test_the_port_of_a_window_that_was_closed_is_free_at_once() -> None:
+    """A connection that the server ended keeps its port for a minute."""
+    with _listening(0) as here:
+        port = here.getsockname()[1]
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            there, _ = here.accept()
+            there.close()
+            client.recv(1)
+    _listening(port).close()
