@@ -288,7 +288,7 @@ class Jobs:
     def queued(self, cluster: Any) -> bool:
         """Whether the queue lists one of the jobs as one that runs or may still run.
 
-        Where it does not answer jobs may be there, but not for ever: 10 min after it was first silent the study goes on without them.
+        Where it does not answer jobs may be there: after 10 min of silence the study goes on without them.
         """
         ids = {str(job.job_id) for job in list(cluster.workers.values()) if job.job_id is not None}
         try:
