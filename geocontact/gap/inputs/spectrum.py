@@ -109,7 +109,8 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
             frequency.append(np.fft.rfftfreq(len(grid), grid[1] - grid[0])[APART:-1:APART])
             power.append((np.abs(np.fft.rfft(bent * window)) ** 2 / (window**2).sum())[APART:-1:APART])
             values.append(column[there])
-            ends += [np.nanmin(trial.column(name)), np.nanmax(trial.column(name))]
+            ends.append(np.nanmin(trial.column(name)))
+            ends.append(np.nanmax(trial.column(name)))
     if not values or not np.ptp(np.concatenate(values)) > 0.0:
         return None
     half_range = 0.5 * float(np.ptp(ends))
