@@ -30,6 +30,8 @@ class Magnitudes:
         Middle and half-range of each input, and root mean square of its rate.
     places
         The same for each place of a system that has several.
+    in_pieces
+        Whether inputs are known around pieces of the trials only (`data.trial`).
 
     Examples
     --------
@@ -50,6 +52,7 @@ class Magnitudes:
     span: Mapping[str, float] = field(default_factory=dict)
     places: Mapping[str, Magnitudes] = field(default_factory=dict)
     speed: Mapping[str, float] = field(default_factory=dict)
+    in_pieces: bool = False
 
     def of(self, channel: str) -> float:
         """Magnitude of a channel, 1 when it is not known."""
@@ -101,4 +104,5 @@ def magnitudes_of(
         centre={name: 0.5 * (least[name] + most[name]) for name in inputs},
         span={name: positive(0.5 * (most[name] - least[name])) for name in inputs},
         speed={name: rms_rate(movements, name) for name in inputs},
+        in_pieces=any(trial.pieces for trial in trials),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 from jaxtyping import Float
@@ -24,18 +23,6 @@ def mean_and_sd(trials: Float[np.ndarray, "trials t"]) -> tuple[Float[np.ndarray
     return mean, np.sqrt(squares.sum(axis=0) / np.where(count > 1, count - 1.0, np.nan))
 
 
-PAUSE = 10.0
-"""Usual steps from one sample to the next, beyond which a recording paused: a straight line is no movement there."""
-
-
-def runs(time: Float[np.ndarray, " t"]) -> list[slice]:
-    """Rows between pauses (`PAUSE`), one after the other; all of them where there is none."""
-    step = np.diff(time)
-    usual = float(np.median(step)) if len(step) else 0.0
-    ends = [int(k) + 1 for k in np.flatnonzero(step > PAUSE * usual)]
-    return [slice(a, b) for a, b in pairwise([0, *ends, len(time)])]
-
-
 @dataclass(frozen=True)
 class Trial:
     """Inputs and outputs of a trial in SI units; NaN where a channel was not measured.
@@ -50,12 +37,16 @@ class Trial:
         Numbers that hold for the whole trial ("level", "cuff_pressure"), SI units.
     labels
         Words that do ("condition": "locked").
+    pieces
+        First and last time [s] of each piece with every sample, where a long trial is thinned: in between stand means,
+        and a straight line is no movement there. Empty for a trial as it was recorded, whatever its steps.
     """
 
     name: str
     signals: Signals
     covariates: Mapping[str, float] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)
+    pieces: tuple[tuple[float, float], ...] = ()
 
     def __len__(self) -> int:
         return len(self.signals.time)
@@ -68,3 +59,12 @@ class Trial:
     def column(self, name: str) -> Float[np.ndarray, " t"]:
         """Values of one channel; KeyError when there is none of that name."""
         return self.signals.column(name)
+
+    @property
+    def runs(self) -> list[slice]:
+        """Rows of each piece, in order; all rows of a trial that is whole."""
+        if not self.pieces:
+            return [slice(0, len(self))]
+        first, last = np.array(self.pieces).T
+        begin, end = np.searchsorted(self.time, first), np.searchsorted(self.time, last, side="right")
+        return [slice(int(a), int(b)) for a, b in zip(begin, end, strict=True)]

@@ -36,7 +36,7 @@ from scipy.stats import chi2, norm, t
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
-from geocontact.data.trial import runs
+from geocontact.data.trial import Trial
 from geocontact.effects.measurement.clock_slip import WHEN
 from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.attribute import Attribution
@@ -45,7 +45,6 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.levels import (
     DEVIATIONS,
     FEW,
-    FEWEST,
     LEADING,
     LEFT_OVER,
     PHASES,
@@ -245,28 +244,34 @@ def slip_of(measured: Float[np.ndarray, " n"], predicted: Float[np.ndarray, " n"
     return Slip(row, place, after, before, float(still[-1]), nats)
 
 
-def share_of_time(time: Float[np.ndarray, " t"], there: Bool[np.ndarray, " t"], place: int) -> float:
-    """Share of a trial's time at a row; in a trial with pauses, half-way from there to the next measured piece.
+def share_of_time(trial: Trial, there: Bool[np.ndarray, " t"], place: int) -> float:
+    """Share of a trial's time at a row; half-way to the next measured row where it is the last one of its piece.
 
     `there` are the measured rows. Between two pieces nothing shows where it was.
     """
-    again = np.flatnonzero(np.diff(there.astype(int), prepend=1) == 1)
-    after = again[again > place]
-    whole = len(runs(time)) == 1 or not len(after)
-    at = time[place] if whole else 0.5 * (time[place] + time[after[0]])
+    if not trial.pieces:
+        return place / (len(trial) - 1)
+    time, after = trial.time, np.flatnonzero(there[place + 1 :])
+    at = time[place]
+    if len(after):
+        following = place + 1 + int(after[0])
+        if not any(piece.start <= place and following < piece.stop for piece in trial.runs):
+            at = 0.5 * (at + time[following])
     return float(at - time[0]) / float(time[-1] - time[0])
 
 
 def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelled | None:
-    """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares."""
+    """Samples that a channel or the inputs lost, in each trial its own; `share` is still a sum of squares.
+
+    No more than `LONGEST` are found in a trial in pieces, whose inputs are known so far around its outputs.
+    """
     problem, jacobian = found.problem, found.answer.chosen.judged.model.jacobian
     trials, name = problem.recorded.trials, problem.system.outputs[c]
-    pieces = [[run for run in runs(trial.time) if run.stop - run.start >= FEWEST] for trial in trials]
-    steps = [np.diff(trial.time[run]) for trial, own in zip(trials, pieces, strict=True) for run in own]
+    steps = [np.diff(trial.time[run]) for trial in trials for run in trial.runs]
     if any(float(np.ptp(each)) > SLIGHT * float(np.median(each)) for each in steps):
         return None
-    paused = any(len(own) > 1 for own in pieces)
-    most = FEWEST if paused else FEW * int(LONGEST)  # samples, that a trial may lose
+    paused = any(trial.pieces for trial in trials)
+    most = (1 if paused else FEW) * int(LONGEST)  # samples, that a trial may lose
     measured = [
         np.where(there[:, c], y[:, c], np.nan) for y, there in zip(problem.recorded.outputs, rest.present, strict=True)
     ]
@@ -297,7 +302,7 @@ def lost_samples(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodelle
         return None
     kept = [(trial, one, y) for trial, one, y in zip(trials, slips, measured, strict=True) if one is not None]
     told = {trial.name: float(one.samples) for trial, one, _ in kept}
-    places = {trial.name: share_of_time(trial.time, np.isfinite(y), one.place) for trial, one, y in kept}
+    places = {trial.name: share_of_time(trial, np.isfinite(y), one.place) for trial, one, y in kept}
     each = ", ".join(f"{abs(told[k]):.0f} in {k} at {places[k]:.0%}" for k in sorted(told))
     late = all(samples < 0.0 for samples in told.values())
     words = f"samples lost in {'the inputs beside ' if late else ''}{name}: {each}"

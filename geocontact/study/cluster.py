@@ -7,6 +7,7 @@ this run in a file that only the user can read. What a site needs besides (furth
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -30,6 +31,7 @@ from geocontact.study.limits import TRIES, Count, Size, TrialLimits, bytes_of, s
 WORD = re.compile(r"[\w.@:+-]{1,80}")
 WALLTIME = re.compile(r"([0-9]{1,4}):([0-5][0-9]):([0-5][0-9])")
 ANSWERS = 30.0  # s; for the queue to say what is in it
+POSIX = os.name == "posix"
 SILENT = 600.0  # s; after which a queue that says nothing is taken as one without jobs of the study
 TAKES = 120.0  # s; for the queue to take a job
 LATE = "Exit code: 124"  # what Dask says of a program that `timeout` ended
@@ -229,7 +231,7 @@ class Jobs:
         self._options = job_options(system, asked, limits, self._size, folder)
         self.missing = 1
         self.refused = ""
-        self._answered = time.monotonic()
+        self._silent: float | None = None
 
     @contextmanager
     def started(self) -> Iterator[Any]:
@@ -286,7 +288,7 @@ class Jobs:
     def queued(self, cluster: Any) -> bool:
         """Whether the queue lists one of the jobs as one that runs or may still run.
 
-        Where it does not answer jobs may be there, but not for ever: after 10 min the study goes on without them.
+        Where it does not answer jobs may be there: after 10 min of silence the study goes on without them.
         """
         ids = {str(job.job_id) for job in list(cluster.workers.values()) if job.job_id is not None}
         try:
@@ -294,8 +296,10 @@ class Jobs:
                 self._system.lists, capture_output=True, text=True, timeout=ANSWERS, check=False
             ).stdout
         except (OSError, subprocess.TimeoutExpired):  # it does not answer
-            return bool(ids) and time.monotonic() - self._answered < SILENT
-        self._answered = time.monotonic()
+            if self._silent is None:
+                self._silent = time.monotonic()
+            return bool(ids) and time.monotonic() - self._silent < SILENT
+        self._silent = None
         return bool(ids & self._system.alive(said))
 
 
@@ -306,7 +310,7 @@ def _noting(jobs: Jobs, base: Any) -> type:
     class Noting(base):  # type: ignore[misc]
         """A job."""
 
-        if shutil.which("timeout") is not None:  # of GNU: Dask waits for ever
+        if POSIX and shutil.which("timeout") is not None:  # Dask waits for ever; that of Windows is another program
             submit_command = f"timeout {TAKES:g} {base.submit_command} "  # which Dask splits, or gives to a shell
 
         async def start(self) -> None:

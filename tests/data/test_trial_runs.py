@@ -1,17 +1,32 @@
-"""Where a recording pauses."""
+"""Pieces of a trial: those that thinning has marked, whatever its steps."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from geocontact.data.trial import runs
+from geocontact.data.motion import Signals
+from geocontact.data.trial import Trial
 
 
-def test_a_trial_is_cut_at_pauses_and_not_where_a_few_samples_are_missing() -> None:
-    time = 0.02 * np.arange(100)
-    assert runs(time) == [slice(0, 100)]
-    assert runs(np.delete(time, slice(30, 38))) == [slice(0, 92)]
-    assert runs(np.delete(time, slice(30, 42))) == [slice(0, 30), slice(30, 88)]
-    lone = np.concatenate([time, [5.0], 9.0 + time])
-    assert runs(lone) == [slice(0, 100), slice(100, 101), slice(101, 201)]
-    assert runs(time[:1]) == [slice(0, 1)]
+def trial(time: np.ndarray, pieces: tuple[tuple[float, float], ...] = ()) -> Trial:
+    return Trial("t", Signals(time, np.zeros((len(time), 1)), ("u",), ("rad",)), pieces=pieces)
+
+
+@pytest.mark.parametrize(
+    "time",
+    [
+        np.concatenate([0.001 * np.arange(600), 0.6 + 0.02 * np.arange(500)]),  # two rates
+        np.delete(0.02 * np.arange(100), slice(30, 60)),
+        np.cumsum(np.random.default_rng(0).exponential(0.01, 300)),
+        np.zeros(1),
+    ],
+)
+def test_a_trial_as_it_was_recorded_is_one(time: np.ndarray) -> None:
+    """Uneven steps are no pauses: a recording is used as it is."""
+    assert trial(time).runs == [slice(0, len(time))]
+
+
+def test_pieces_are_rows_between_their_times() -> None:
+    time = np.concatenate([0.02 * np.arange(100), [5.0], 9.0 + 0.02 * np.arange(50)])
+    assert trial(time, ((0.0, time[99]), (9.0, time[-1]))).runs == [slice(0, 100), slice(101, 151)]

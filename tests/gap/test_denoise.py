@@ -85,7 +85,7 @@ def test_both_sides_of_a_pause_are_taken_for_themselves() -> None:
     whole, _ = trial(0.01, 0.5, 1)
     rows = [slice(0, 450), slice(450, 1000)]
     time = whole.time + np.where(np.arange(1000) < 450, 0.0, 30.0)
-    paused = part(whole, time, slice(None))
+    paused = replace(part(whole, time, slice(None)), pieces=((time[0], time[449]), (time[450], time[-1])))
     passed, sides = LowPass(6.0, STEP), [part(whole, time, own) for own in rows]
     calm = [denoised(one, {"u": 0.01}, {"u": passed}).column("u") for one in (paused, *sides)]
     np.testing.assert_allclose(calm[0], np.concatenate(calm[1:]), atol=1e-12)
@@ -99,7 +99,8 @@ def test_both_sides_of_a_pause_are_taken_for_themselves() -> None:
 def test_a_spectrum_is_of_the_long_runs_of_a_trial() -> None:
     whole, _ = trial(0.01, 0.5, 1)
     time = whole.time + np.where(np.arange(1000) < 800, 0.0, 30.0)
-    seen, long = (spectrum([part(whole, time, own)], "u", STEP) for own in (slice(None), slice(0, 800)))
+    paused = replace(part(whole, time, slice(None)), pieces=((time[0], time[799]), (time[800], time[-1])))
+    seen, long = (spectrum([one], "u", STEP) for one in (paused, part(whole, time, slice(0, 800))))
     assert seen is not None and long is not None
     np.testing.assert_allclose(seen.power, long.power)
 

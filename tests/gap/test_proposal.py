@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geocontact.data.trial import Trial
-from geocontact.gap.experiment.menu import HELD, HOLDS, _settings, bench, longest_run, menu, swap
+from geocontact.gap.experiment.menu import HELD, HOLDS, _settings, bench, liveliest_piece, menu, swap
 from geocontact.gap.experiment.proposal import Rows
 from tests.elsewhere import Elsewhere
 from tests.gap.identifiability_cases import LAG, on_the_menu, proposed
@@ -21,15 +21,21 @@ def changes(elsewhere: Elsewhere) -> dict[str, tuple[str, Trial]]:
     return elsewhere(on_the_menu)
 
 
-def test_what_is_changed_is_the_longest_run_of_a_trial_in_pieces() -> None:
-    trial = knee_trial("t01", 1.0)
-    assert longest_run(trial) is trial
+def test_what_is_changed_is_the_liveliest_piece_of_a_trial() -> None:
+    """After a rest at the beginning, and not the rest; of a trial with uneven steps all."""
+    trial, system = knee_trial("t01", 1.0), knee()
+    assert liveliest_piece(system, trial) is trial
     count, signals = len(trial), trial.signals
-    time = signals.time + 100.0 * (np.arange(count) >= 0.3 * count)
-    later = longest_run(replace(trial, signals=replace(signals, time=time)))
-    first = int(np.ceil(0.3 * count))
+    first = int(np.ceil(0.6 * count))
+    time = signals.time + 100.0 * (np.arange(count) >= first)
+    values = np.where(np.arange(count)[:, None] < first, signals.values[0], signals.values)
+    resting = replace(trial, signals=replace(signals, time=time, values=values))
+    assert liveliest_piece(system, resting) is resting
+    pieces = (time[0], time[first - 1]), (time[first], time[-1])
+    later = liveliest_piece(system, replace(resting, pieces=pieces))
     np.testing.assert_array_equal(later.time, time[first:])
-    np.testing.assert_array_equal(later.signals.values, signals.values[first:])
+    np.testing.assert_array_equal(later.signals.values, values[first:])
+    assert not later.pieces
 
 
 def test_a_faster_trial_goes_the_same_way_in_the_time_that_its_words_say(

@@ -14,6 +14,7 @@ import pytest
 from geocontact.analyses.gap.thinning import thinned_and_said
 from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.gap_case import GapCase
+from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.case.problem import Problem
@@ -28,6 +29,7 @@ from geocontact.gap.unmodelled import (
     loads_by_place,
     lost_samples,
     regions,
+    share_of_time,
     slip_of,
     wandering_zero,
 )
@@ -218,6 +220,18 @@ def test_lost_samples_are_counted_in_pieces_of_long_trials(elsewhere: Elsewhere)
     assert one.trials == {name: float(count) for name, (count, _) in LOST.items() if count}
     for count, name, place in re.findall(r"(\d+) in (t\d) at (\d+)%", one.words):
         assert (int(count), float(place)) == (LOST[name][0], pytest.approx(100.0 * LOST[name][1], abs=12.5))
+
+
+def test_the_place_of_a_slip_is_moved_at_the_end_of_a_piece_only() -> None:
+    """Measured rows 10 to 39 and 60 to 89 of 100, two pieces around them with a pause of 50 s between."""
+    time = np.arange(100.0) + 50.0 * (np.arange(100) >= 50)
+    there = np.zeros(100, dtype=bool)
+    there[10:40] = there[60:90] = True
+    signals = Signals(time, np.zeros((100, 1)), ("u",), ("rad",))
+    paused = Trial("t", signals, pieces=((0.0, 49.0), (100.0, 149.0)))
+    for place, at in ((20, 20.0), (39, 0.5 * (39.0 + 110.0)), (45, 0.5 * (45.0 + 110.0)), (70, 120.0), (89, 139.0)):
+        assert share_of_time(paused, there, place) == pytest.approx(at / 149.0), place
+    assert share_of_time(Trial("t", signals), there, 39) == 39 / 99
 
 
 def test_lost_samples_take_what_they_cause_where_the_stiffness_is_off(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.signal import butter, filtfilt
 
-from geocontact.identify.noise.covariance import Layout, NoiseBlock
+from geocontact.identify.noise.covariance import BLOCK_ROWS, Layout, NoiseBlock
 from geocontact.identify.noise.input_noise import Instant, Lasting, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.signals.low_pass import LowPass
@@ -147,7 +148,7 @@ def test_rates_of_unfiltered_noise_are_remembered_as_long_as_they_are_smoothed(s
     assert_allclose(both[0], exact, atol=0.03 * exact[0])
 
 
-def test_a_pause_ends_a_block_and_both_sides_weigh_as_two_trials() -> None:
+def test_a_piece_ends_a_block_and_both_sides_weigh_as_two_trials() -> None:
     """Noise is forgotten over a pause; a block of 120 rows would otherwise hold both of its sides."""
     rng, time = np.random.default_rng(4), STEP * np.arange(100)
     paused = np.concatenate([time[:55], time[55:] + 40.0 * STEP])
@@ -157,11 +158,26 @@ def test_a_pause_ends_a_block_and_both_sides_weigh_as_two_trials() -> None:
         *(each[..., :1] for each in (LEVELS.white, LEVELS.coloured, LEVELS.memory, LEVELS.growing)), LEVELS.inputs
     )
 
-    def whitened(rows: slice) -> tuple[np.ndarray, float]:
+    def whitened(rows: slice, *pieces: slice) -> tuple[np.ndarray, float]:
         heard = Instant(paused[rows], felt[rows], 0.1 * felt[rows], (PASSED,))
-        whitener = Layout.of(paused[rows], one[rows] > 0.0, heard, one[rows], 0.0 * one[rows]).whitener(levels)
+        found = Layout.of(paused[rows], one[rows] > 0.0, heard, one[rows], 0.0 * one[rows], pieces)
+        whitener = found.whitener(levels)
         return whitener(values[rows]), whitener.log_scale
 
-    both, first, later = (whitened(rows) for rows in (slice(100), slice(55), slice(55, 100)))
+    pieces = slice(0, 55), slice(55, 100)
+    both, first, later = whitened(slice(100), *pieces), whitened(pieces[0]), whitened(pieces[1])
     assert_allclose(both[0], np.concatenate([first[0], later[0]]), atol=1e-12)
     assert both[1] == pytest.approx(first[1] + later[1])
+
+
+def test_blocks_of_a_trial_with_two_rates_are_those_of_its_rows() -> None:
+    """600 rows at 1 kHz and 500 at 50 Hz, one of three missing: edges are evenly spaced rows, whatever the steps."""
+    time = np.concatenate([0.001 * np.arange(600), 0.6 + 0.02 * np.arange(500)])
+    there = (np.arange(1100) % 3 > 0)[:, None]
+    felt = np.zeros((1100, 1, 1))
+    found = Layout.of(time, there, Instant(time, felt, felt, ()), np.ones((1100, 1)), np.zeros((1100, 1)))
+    edges = [round(each) for each in np.linspace(0, 1100, round(there.sum() / BLOCK_ROWS) + 1)]
+    expected = [a + np.flatnonzero(there[a:b, 0]) for a, b in pairwise(edges)]
+    assert len(found.blocks) == len(expected) == 6
+    for block, rows in zip(found.blocks, expected, strict=True):
+        np.testing.assert_array_equal(block.rows, rows)

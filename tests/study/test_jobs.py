@@ -17,6 +17,7 @@ import psutil
 import pytest
 
 from geocontact.data.errors import InputError
+from geocontact.study import cluster as clusters
 from geocontact.study import workers
 from geocontact.study.cluster import SYSTEMS, ClusterSettings, Jobs, job_options, job_size
 from geocontact.study.description import read_study_file
@@ -300,7 +301,7 @@ def test_a_queue_that_says_nothing_is_not_waited_for_longer_than_ten_minutes(
     own, cluster = jobs("slurm", tmp_path, TrialLimits(None, 2 * GB)), {"0": SimpleNamespace(job_id="4711")}
     answers = subprocess.run
     monkeypatch.setattr(subprocess, "run", silent)
-    now = time.monotonic()
+    now = time.monotonic() + 7200.0  # it is asked only where workers are gone, here after two hours of work
     for after, expected in ((0.0, True), (590.0, True), (610.0, False)):
         monkeypatch.setattr(time, "monotonic", lambda after=after: now + after)
         assert own.queued(SimpleNamespace(workers=cluster)) is expected, after
@@ -344,3 +345,15 @@ def test_jobs_need_a_description_and_the_programs(tmp_path: Path, monkeypatch: p
 
 def test_options_name_every_queueing_system() -> None:
     assert set(QUEUES) == set(SYSTEMS)
+
+
+@pytest.mark.parametrize(("posix", "command"), [(True, "timeout 60 sbatch "), (False, "sbatch")])
+def test_timeout_is_a_program_of_posix(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, posix: bool, command: str
+) -> None:
+    """That of Windows waits for a key."""
+    own = jobs("slurm", tmp_path, TrialLimits(None, 2 * GB))
+    monkeypatch.setattr(clusters, "POSIX", posix)
+    monkeypatch.setattr(clusters.shutil, "which", lambda name: f"/bin/{name}")
+    noting = clusters._noting(own, type("Slurm", (), {"submit_command": "sbatch"}))
+    assert noting.submit_command == command.replace("60", f"{clusters.TAKES:g}")  # type: ignore[attr-defined]

@@ -7,10 +7,11 @@ Cost grows with the samples of the outputs, what they tell hardly does: noise of
 root, and a limit of detection below what trial-to-trial variation leaves open does nobody good. Within a stretch every
 sample stays: lags, the memory of noise, levels at which a sensor clips and held samples are as they were recorded.
 
-Base models of geocontact see the inputs of every stretch from `LEAD` samples before it on, over which lags, friction
-and play settle, to `AHEAD` samples behind it, and those of the trial's beginning. In between are means, of the more
-samples the longer before a stretch, which what forgets more slowly goes by. All keep their times, so that drifts and
-clocks are those of the whole trial. Of other simulators nothing is known, and their inputs stay whole.
+Base models of geocontact see the inputs of every stretch from `lead` before it on, over which lags settle, to `ahead`
+behind it, those of the trial's beginning, and those of its liveliest part. In between are means, of the more samples
+the longer before a stretch, which what forgets more slowly goes by (`_halves`), and the `turning_points` that play and
+friction remember. All keep their times; a clock that runs at another rate is sought as far as the inputs reach, which
+is said. Of other simulators nothing is known, and their inputs stay whole.
 
 Stretches begin at a low-discrepancy sequence within equal parts of a trial (multiples of the golden section, Kuipers &
 Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only;
@@ -21,33 +22,42 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Bool
+from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.frame.collector import reserve
 from geocontact.analyses.frame.consent import foreign
 from geocontact.analyses.gap.block_means import averaged
 from geocontact.analyses.gap.case import CaseWithModel, read_case
+from geocontact.chain.differentiated_inputs import REACH
 from geocontact.chain.system import System
 from geocontact.data.gap_case import COMMAND, LISTED_SYSTEMS, GapCase
+from geocontact.data.motion import Signals
 from geocontact.data.trial import Trial
+from geocontact.effects.measurement.clock_slip import fastest as fastest_clock
+from geocontact.effects.measurement.time_shift import LONGEST
 from geocontact.gap.case.noise_sources import typical_step
 from geocontact.gap.inputs.spectrum import switches
-from geocontact.gap.levels import FEWEST
+from geocontact.gap.levels import FEWEST, SLIGHT
 from geocontact.systems.catalogue import system_of
 
 ROWS = 8_400
 """Measured samples of all outputs and trials that a diagnosis uses."""
 STRETCH = 60
 """Measured samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
-LEAD, AHEAD = 60, FEWEST
-"""Samples of the inputs before a stretch and behind it: the longest lag of an effect is 50, rates reach 14 ahead."""
+RATES = 14
+"""Samples that rates of rates reach to either side where sampling is coarse (`chain.differentiated_inputs`)."""
+SETTLES = 1.2
+"""Time before a stretch from which every sample of the inputs stays, however quick the recording is [s]."""
 BEGINNING = 600
-"""Samples of the inputs that stay at the beginning of a trial: what starts there, and long enough for spectra."""
+"""Samples of the inputs that stay at the beginning of a trial and where it moves most: long enough for spectra."""
 RARER = 1.25
 """How many times as far apart means in between lie as those behind them, the last one `FEWEST` samples."""
+EXACT = 1e-9
+"""Rounding of times [s]."""
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
@@ -83,7 +93,12 @@ def thinned_and_said(case: GapCase, system: System) -> tuple[GapCase, tuple[str,
         case = with_inputs_around(fewer, outputs) if _own(case.system) else fewer
         seen, whole = (sum(map(len, (*each.calibration, *each.evaluation))) for each in (case, fewer))
         if seen < whole:
-            said.append(f"of {whole} samples of the inputs {seen} are used, those from {LEAD} before each stretch on")
+            lead, _ = reaches(fewer)
+            fastest = fastest_clock(system.scaled(case.calibration).scale)
+            said.append(
+                f"of {whole} samples of the inputs {seen} are used, those from {lead:.3g} s before each stretch on; "
+                f"rates of clocks are sought up to {fastest:.2g}"
+            )
     return case, tuple(said)
 
 
@@ -113,35 +128,137 @@ def _own(system: str) -> bool:
     return system != COMMAND and not foreign(system) and (":" in system or system in LISTED_SYSTEMS)
 
 
+def reaches(case: GapCase) -> tuple[float, float]:
+    """Time before and behind each stretch for which inputs stay [s], from the longest lags that effects may have.
+
+    Those are so many steps of the fitted trials, here of the coarsest one; rates reach on from there.
+    """
+    step = max(float(np.median(np.diff(trial.time))) for trial in case.calibration)
+    ahead = LONGEST * step + max(RATES * step, 2.0 * REACH)
+    return max(SETTLES, ahead), ahead
+
+
 def with_inputs_around(case: GapCase, outputs: Sequence[str]) -> GapCase:
     """The case without the rows of inputs that lie far from all samples of these outputs."""
+    lead, ahead = reaches(case)
 
     def fewer(trial: Trial) -> Trial:
-        measured = np.isfinite(np.stack([trial.column(name) for name in outputs])).any(axis=0)
-        whole, sparse = rows_around(measured)
-        rows, signals = np.flatnonzero(whole | sparse), trial.signals
-        time, values = signals.time[rows], signals.values[rows]
-        middle = (rows[1:] + rows[:-1] + 1) // 2
+        signals = trial.signals
         moved = [k for k, name in enumerate(signals.channels) if name not in outputs and not switches([trial], name)]
-        for k in np.flatnonzero(sparse[rows]):
-            around = slice(middle[k - 1], middle[k])
-            time[k], values[k, moved] = signals.time[around].mean(), signals.values[around][:, moved].mean(axis=0)
-        return replace(trial, signals=replace(signals, time=time, values=values))
+        measured = np.isfinite(np.stack([trial.column(name) for name in outputs])).any(axis=0)
+        whole, sparse = rows_around(trial.time, measured, lead, ahead, liveliest(signals.values[:, moved]))
+        edges = np.flatnonzero(np.diff(whole.astype(int), prepend=0, append=0)).reshape(-1, 2)
+        pieces = tuple((float(signals.time[a]), float(signals.time[b - 1])) for a, b in edges if b - a > 1)
+        return replace(trial, signals=_with_means(signals, moved, whole, sparse), pieces=pieces)
 
     first, later = (tuple(fewer(one) for one in side) for side in (case.calibration, case.evaluation))
     return replace(case, calibration=first, evaluation=later)
 
 
-def rows_around(measured: Bool[np.ndarray, " t"]) -> tuple[Bool[np.ndarray, " t"], Bool[np.ndarray, " t"]]:
+def _with_means(
+    signals: Signals, moved: Sequence[int], whole: Bool[np.ndarray, " t"], sparse: Bool[np.ndarray, " t"]
+) -> Signals:
+    """Whole rows, turning points between them, and in place of sparse rows means of halves of what lies around them.
+
+    A cell does not reach over a turning point. One in which an input was not measured is left out.
+    """
+    turns = np.zeros_like(whole)
+    for first, last in np.flatnonzero(np.diff(whole.astype(int), prepend=1, append=1)).reshape(-1, 2):
+        for k in moved:
+            x = signals.values[:, k]
+            turns[first + turning_points(x[first : last + 1], SLIGHT * float(np.nanmax(x) - np.nanmin(x)))] = True
+    turns &= ~whole
+    sparse = sparse & ~turns
+    fixed = np.flatnonzero(whole | turns)
+    for a, b in pairwise(fixed):  # a mean between two turning points that have none
+        if b - a > FEWEST and not sparse[a:b].any():
+            sparse[(a + b) // 2] = True
+    rows = np.flatnonzero(whole | turns | sparse)
+    edges = np.where(
+        turns[rows[:-1]], rows[:-1] + 1, np.where(turns[rows[1:]], rows[1:], (rows[1:] + rows[:-1] + 1) // 2)
+    )
+    time, values, used = signals.time.copy(), signals.values.copy(), whole | turns
+    for k in np.flatnonzero(sparse[rows]):
+        inside = np.arange(edges[k - 1], edges[k])
+        for place, at, mean in _halves(signals.time[inside], signals.values[inside][:, moved]):
+            row = inside[place]
+            time[row], values[row, moved], used[row] = at, mean, True
+    return replace(signals, time=time[used], values=values[used])
+
+
+def _halves(
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t i"]
+) -> list[tuple[int, float, Float[np.ndarray, " i"]]]:
+    """Rows, times and means of the lower and the upper half of a cell's samples, the earlier one first.
+
+    Halves of what moves most: a spring that is not straight is bent over both of them, as over the samples. One mean of
+    a short cell, none where an input was not measured.
+    """
+    there, count = np.isfinite(values), len(time)
+    if not there.any(axis=0).all():
+        return []
+    spread = np.nanmax(values, axis=0) - np.nanmin(values, axis=0)
+    order = np.argsort(values[:, int(np.argmax(spread))], kind="stable")
+    parts = [order[: count // 2], order[count // 2 :]] if count >= FEWEST else [order]
+    if not all(there[part].any(axis=0).all() for part in parts):
+        parts = [order]
+    parts.sort(key=lambda part: float(time[part].mean()))
+    places = [(2 * k + 1) * count // (2 * len(parts)) for k in range(len(parts))]
+    spans = np.array_split(time, len(parts))
+    return [
+        (place, float(own.mean()), np.nanmean(values[part], axis=0))
+        for place, own, part in zip(places, spans, parts, strict=True)
+    ]
+
+
+def turning_points(values: Float[np.ndarray, " t"], least: float) -> Int[np.ndarray, " k"]:
+    """Where a course has the maxima and minima that hysteresis without rates remembers at its last value.
+
+    Later and larger ones wipe earlier ones out (Mayergoyz 1986, Phys. Rev. Lett. 56:1518): seen from the end, those
+    that exceed all that came after them, in turn up and down. Ranges below `least` count as noise.
+    """
+    there = np.flatnonzero(np.isfinite(values))[::-1]
+    if len(there) < 2:
+        return np.zeros(0, dtype=int)
+    seen = values[there]
+    high, low = np.maximum.accumulate(seen), np.minimum.accumulate(seen)
+    way = np.sign(np.diff(high)) - np.sign(-np.diff(low))
+    at = 1 + np.flatnonzero((way != 0.0) & (high - low > least)[1:])
+    last = np.append(np.diff(way[at - 1]) != 0.0, True)[: len(at)]
+    return there[at[last]]
+
+
+def liveliest(values: Float[np.ndarray, "t i"]) -> slice:
+    """The `BEGINNING` rows in which inputs move most, for spectra; none where the first ones move half as much."""
+    spread = np.maximum(np.nanstd(values, axis=0), 1e-300)
+    level = np.nan_to_num((values - np.nanmean(values, axis=0)) / spread)
+    sums = np.insert(np.cumsum(np.stack([level, level**2]), axis=1), 0, 0.0, axis=1)
+    mean, square = (sums[:, BEGINNING:] - sums[:, :-BEGINNING]) / BEGINNING
+    moves = np.sqrt(np.maximum(square - mean**2, 0.0)).sum(axis=1)
+    if not len(moves) or 2.0 * moves[0] >= moves.max():
+        return slice(0, 0)
+    first = int(np.argmax(moves))
+    return slice(first, first + BEGINNING)
+
+
+def rows_around(
+    time: Float[np.ndarray, " t"],
+    measured: Bool[np.ndarray, " t"],
+    lead: float,
+    ahead: float,
+    lively: slice = slice(0, 0),
+) -> tuple[Bool[np.ndarray, " t"], Bool[np.ndarray, " t"]]:
     """Rows that stay, and in whose place a mean does.
 
-    The first are those at most `LEAD` before or `AHEAD` behind a measured one, the first `BEGINNING`, and the last.
+    The first are those at most `lead` before or `ahead` behind a measured one [s], the first `BEGINNING`, the `lively`
+    ones, and the last.
     """
     edges = np.flatnonzero(np.diff(measured.astype(int), prepend=0, append=0))
     kept, sparse = np.zeros((2, len(measured)), dtype=bool)
-    kept[:BEGINNING] = kept[-1:] = True
+    kept[:BEGINNING] = kept[-1:] = kept[lively] = True
     for first, last in edges.reshape(-1, 2):
-        kept[max(first - LEAD, 0) : last + AHEAD] = True
+        begin, end = np.searchsorted(time, [time[first] - lead - EXACT, time[last - 1] + ahead + EXACT])
+        kept[begin:end] = True
     away = np.flatnonzero(np.diff(kept.astype(int), prepend=1, append=1))
     for first, last in away.reshape(-1, 2):
         if last - first < 2 * FEWEST:

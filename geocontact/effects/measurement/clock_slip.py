@@ -16,6 +16,7 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.effect import Candidate, Effect
 from geocontact.chain.history import read_at
 from geocontact.chain.links import Channels, Modifier, Values
+from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.data.parameter import Parameter
 from geocontact.effects.measurement.time_shift import LONGEST
@@ -52,9 +53,15 @@ def once(system: System) -> Candidate:
     return Candidate("clock_slip", "once", "timing", (delay, when), link, {delay.name: 0.0}, others)
 
 
+def fastest(scale: Magnitudes) -> float:
+    """Largest rate of a clock that is sought: in pieces of trials, where inputs reach no further, `LONGEST` in all."""
+    return min(FASTEST, LONGEST * scale.step / scale.duration) if scale.in_pieces else FASTEST
+
+
 def steady(system: System) -> Candidate:
     """Amplitude rate."""
-    rate = Parameter("clock_slip.steady.rate", "-", 0.05 * FASTEST, -FASTEST, FASTEST)
+    most = fastest(system.scale)
+    rate = Parameter("clock_slip.steady.rate", "-", 0.05 * most, -most, most)
 
     def change(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:
         if values[rate.name] == 0.0:

@@ -195,6 +195,6 @@ def layouts_of(
     """One per trial, inputs' noise (see `propagated_input_noise`) seen through the model at `values`."""
     spectra = spectra_of(system, passed, left)  # their tables are the same in all trials
     return [
-        Layout.of(t.time, there, _felt(system, t, values, spectra), own, size)
+        Layout.of(t.time, there, _felt(system, t, values, spectra), own, size, t.runs)
         for t, there, own, size in zip(trials, present, spread, signal, strict=True)
     ]

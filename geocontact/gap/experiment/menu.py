@@ -18,7 +18,8 @@ from geocontact.chain.differentiated_inputs import DifferentiatedInputs, recorde
 from geocontact.chain.links import LAST, Modifier
 from geocontact.chain.system import System
 from geocontact.data.motion import Signals
-from geocontact.data.trial import Trial, runs
+from geocontact.data.trial import Trial
+from geocontact.gap.inputs.spectrum import long_runs
 from geocontact.gap.levels import FEWEST
 
 ANGLE = "rad"
@@ -57,8 +58,8 @@ class Experiment:
 
 
 def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
-    """Every change that makes sense for a system, made to the trial of middling length, or to its longest run."""
-    template = longest_run(sorted(trials, key=len)[len(trials) // 2])
+    """Every change that makes sense for a system, made to the trial of middling length, or to its liveliest piece."""
+    template = liveliest_piece(system, sorted(trials, key=len)[len(trials) // 2])
     return (
         *paces(system, template),
         *_steps_and_holds(system, template),
@@ -69,13 +70,19 @@ def menu(system: System, trials: Sequence[Trial]) -> tuple[Experiment, ...]:
     )
 
 
-def longest_run(trial: Trial) -> Trial:
-    """What a trial recorded without a pause (`data.trial`) for longest; the trial where there is none."""
-    every = runs(trial.time)
-    if len(every) < 2:
+def liveliest_piece(system: System, trial: Trial) -> Trial:
+    """What moves most of the long pieces of a thinned trial; the trial where it is whole.
+
+    Movement is the sum of the inputs' standard deviations over their half-ranges.
+    """
+    if not trial.pieces:
         return trial
-    rows, signals = max(every, key=lambda run: run.stop - run.start), trial.signals
-    return replace(trial, signals=replace(signals, time=signals.time[rows], values=signals.values[rows]))
+
+    def moves(rows: slice) -> float:
+        return sum(float(np.nanstd(trial.column(name)[rows])) / _span(system, name) for name in system.inputs)
+
+    signals, rows = trial.signals, max(long_runs(trial), key=moves)
+    return replace(trial, signals=replace(signals, time=signals.time[rows], values=signals.values[rows]), pieces=())
 
 
 def band(system: System, trial: Trial) -> tuple[str, float, float]:

@@ -19,7 +19,7 @@ from jaxtyping import Bool, Complex, Float, Int
 
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
-from geocontact.data.trial import Trial, runs
+from geocontact.data.trial import Trial
 from geocontact.gap.inputs.spectrum import TREND, even_grid, long_runs
 from geocontact.gap.inputs.spectrum_components import USUAL
 from geocontact.gap.levels import FEWEST, SLIGHT, SURE
@@ -142,7 +142,7 @@ def changed(
 ) -> Trial:
     """A trial with something added to some inputs, worked out on an even grid from name, values and step [s] there."""
     values = trial.signals.values.copy()
-    for name, run in product(names, runs(trial.time)):
+    for name, run in product(names, trial.runs):
         time, column = trial.time[run], values[run, trial.signals.channels.index(name)]
         there = np.isfinite(column)
         if there.sum() < FEWEST:
@@ -196,7 +196,7 @@ def _evenly(trials: Sequence[Trial], name: str) -> list[tuple[Float[np.ndarray, 
     """Evenly spaced values of an input and their step [s], of each trial that is long enough."""
     recordings = []
     for trial in trials:
-        for run in long_runs(trial.time):
+        for run in long_runs(trial):
             column, time, grid = trial.column(name)[run], trial.time[run], even_grid(trial.time[run])
             there = np.isfinite(column)
             if there.sum() > FEWEST:
@@ -271,7 +271,7 @@ def left(trials: Sequence[Trial], name: str, sd: float, passed: LowPass) -> Left
     """
     found = []
     for trial in trials:
-        for run in runs(trial.time):
+        for run in trial.runs:
             column, time = trial.column(name)[run], trial.time[run]
             there = np.isfinite(column)
             if there.sum() < FEWEST:

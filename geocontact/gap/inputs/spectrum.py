@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.trial import Trial, runs
+from geocontact.data.trial import Trial
 from geocontact.gap.levels import FEWEST, FLAT, SLIGHT
 
 
@@ -18,11 +18,10 @@ def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
     return np.linspace(time[0], time[-1], steps + 1)
 
 
-def long_runs(time: Float[np.ndarray, " t"]) -> list[slice]:
-    """Runs of a trial (`data.trial`) that are no shorter than half the longest: shorter ones blur a spectrum."""
-    found = runs(time)
-    longest = max(one.stop - one.start for one in found)
-    return [one for one in found if 2 * (one.stop - one.start) >= longest]
+def long_runs(trial: Trial) -> list[slice]:
+    """Pieces of a trial that are no shorter than half the longest: shorter ones blur a spectrum."""
+    longest = max(one.stop - one.start for one in trial.runs)
+    return [one for one in trial.runs if 2 * (one.stop - one.start) >= longest]
 
 
 MOST = 10  # steps that a small difference may be
@@ -93,11 +92,11 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
     from scipy.interpolate import CubicSpline
     from scipy.signal.windows import nuttall
 
-    frequency, power, values = [], [], []
+    frequency, power, values, ends = [], [], [], []
     if switches(trials, name):
         return None
     for trial in trials:
-        for run in long_runs(trial.time):
+        for run in long_runs(trial):
             column, time = trial.column(name)[run], trial.time[run]
             there = np.isfinite(column)
             if there.sum() <= FEWEST:
@@ -110,9 +109,11 @@ def spectrum(trials: Sequence[Trial], name: str, step: float) -> Spectrum | None
             frequency.append(np.fft.rfftfreq(len(grid), grid[1] - grid[0])[APART:-1:APART])
             power.append((np.abs(np.fft.rfft(bent * window)) ** 2 / (window**2).sum())[APART:-1:APART])
             values.append(column[there])
+            ends.append(np.nanmin(trial.column(name)))
+            ends.append(np.nanmax(trial.column(name)))
     if not values or not np.ptp(np.concatenate(values)) > 0.0:
         return None
-    half_range = 0.5 * float(np.ptp(np.concatenate(values)))
+    half_range = 0.5 * float(np.ptp(ends))
     least = (1e-12 * half_range) ** 2
     rounding = max(resolution(values) / FLAT, ROUNDED * half_range)
     f, p = np.concatenate(frequency), np.concatenate(power) + least

@@ -14,6 +14,7 @@ each other, apart from d; that keeps matrices small, and is right for what is fo
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -22,7 +23,6 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.linalg import lapack
 
-from geocontact.data.trial import runs
 from geocontact.identify.noise.block_sums import carried, pulled, summed
 from geocontact.identify.noise.input_noise import InputNoise
 from geocontact.identify.noise.noise_levels import NoiseLevels
@@ -109,8 +109,9 @@ class Layout:
         heard: InputNoise,
         spread: Float[np.ndarray, "t c"],
         signal: Float[np.ndarray, "t c"],
+        pieces: Sequence[slice] = (),
     ) -> Layout:
-        """Blocks of a trial, none of them across a pause (`data.trial`).
+        """Blocks of a trial, none of them in two of its pieces (`data.trial`).
 
         Parameters
         ----------
@@ -124,9 +125,11 @@ class Layout:
             How many times its level the sensor noise of each sample is.
         signal
             What the noise of each sample may grow with.
+        pieces
+            Rows that hold all measured ones; all rows by default.
         """
         measured = []
-        for run in runs(time):
+        for run in pieces or (slice(0, len(time)),):
             count = max(1, round(present[run].sum() / BLOCK_ROWS))
             edges = [round(each) for each in np.linspace(run.start, run.stop, count + 1)]
             measured += [(a, b) for a, b in pairwise(edges) if present[a:b].any()]

@@ -18,18 +18,20 @@ from geocontact.data.plausible import LARGEST_MEANT
 from geocontact.io.text.csv_text import Column, open_csv
 from geocontact.io.text.results import named
 
-LARGEST_TABLE = 128_000_000
-"""Bytes; an hour of an arm's results at 250 Hz."""
+LARGEST_TABLE = 8_000_000
+"""Bytes; a layout of 100 000 cells."""
+LARGEST_RESULT = 128_000_000
+"""Bytes of results over time; an hour of an arm's at 250 Hz."""
 
 
-def read_side_table(path: Path, wanted: Iterable[str] = ()) -> pd.DataFrame:
+def read_side_table(path: Path, wanted: Iterable[str] = (), most_bytes: int = LARGEST_TABLE) -> pd.DataFrame:
     """Table with SI units in the names of its columns: `px [m]`, `torque [N m]`, `zone`.
 
     Columns with a unit hold numbers ([-] for pure ones), columns without hold words, and digits there are words too.
     No cell may be empty. Columns in `wanted` are named so where the file has other upper and lower case.
     """
     file = fspath(path)
-    with open_csv(path, LARGEST_TABLE) as (stream, columns, first):
+    with open_csv(path, most_bytes) as (stream, columns, first):
         cells: list[array[float] | list[str]] = [array("d") if column.unit else [] for column in columns]
         for row, place in _rows(stream, file, first - 1):
             _append(row, cells, columns, file, place)

@@ -13,17 +13,17 @@ import pytest
 import geocontact as gc
 from geocontact.analyses.gap import thinning
 from geocontact.analyses.gap.thinning import (
-    AHEAD,
     BEGINNING,
-    LEAD,
     ROWS,
     STRETCH,
     measured_rows,
+    reaches,
     read_thinned,
     rows_around,
     stretches,
     thinned,
     thinned_and_said,
+    turning_points,
     with_inputs_around,
 )
 from geocontact.chain.system import System
@@ -97,6 +97,11 @@ def test_nothing_is_said_where_nothing_was_left_out(tmp_path: Path, monkeypatch:
     assert measured_rows(given.case, ("force",)) == measured_rows(case, ("force",))
 
 
+LEAD, AHEAD = 60, 64
+"""Samples before and behind a stretch, at 25 Hz."""
+TIME = 0.04 * np.arange(20_000)
+
+
 @pytest.mark.parametrize("period", [50.0, 97.3, 333.0, 411.7, 1000.0])
 @pytest.mark.parametrize("share", [0.1, 0.42])
 def test_every_phase_of_a_movement_is_met(period: float, share: float) -> None:
@@ -117,7 +122,7 @@ def test_stretches_spread_over_the_whole_trial() -> None:
 def test_inputs_stay_around_every_stretch_and_sparsely_between() -> None:
     measured = np.zeros(20_000, dtype=bool)
     measured[5000:5060] = measured[5100:5160] = measured[19_000:19_060] = True
-    rows = np.flatnonzero(np.any(rows_around(measured), axis=0))
+    rows = np.flatnonzero(np.any(rows_around(TIME, measured, 0.04 * LEAD, 0.04 * AHEAD), axis=0))
     whole = [(0, BEGINNING), (5000 - LEAD, 5160 + AHEAD), (19_000 - LEAD, 19_060 + AHEAD), (19_999, 20_000)]
     for first, last in whole:
         assert np.isin(np.arange(first, last), rows).all()
@@ -130,10 +135,10 @@ def test_inputs_stay_around_every_stretch_and_sparsely_between() -> None:
 
 def test_a_short_pause_between_stretches_is_none() -> None:
     measured = np.zeros(3_000, dtype=bool)
-    measured[700:760] = measured[860:920] = True  # 760 + AHEAD to 860 - LEAD are 20 samples: nothing is left out there
-    kept, sparse = rows_around(measured)
+    measured[700:760] = measured[904:964] = True  # 760 + AHEAD to 904 - LEAD are 20 samples: nothing is left out there
+    kept, sparse = rows_around(TIME[:3_000], measured, 0.04 * LEAD, 0.04 * AHEAD)
     rows = np.flatnonzero(kept)
-    assert not (kept & sparse).any() and np.isin(np.arange(700 - LEAD, 920 + AHEAD), rows).all() and len(rows) < 1_000
+    assert not (kept & sparse).any() and np.isin(np.arange(700 - LEAD, 964 + AHEAD), rows).all() and len(rows) < 1_000
 
 
 @pytest.mark.parametrize(
@@ -169,7 +174,7 @@ def test_pieces_are_simulated_as_in_the_whole_trial(effect: str, values: dict[st
 def test_an_arm_that_swings_is_where_it_is_in_the_whole_trial() -> None:
     """The shoulder has a motion of its own, which goes on between two pieces along the means of its input."""
     system = shoulder()
-    whole = measured(system, shoulder_trial("t1", 1.0, 0.5, duration=200.0))
+    whole = measured(system, shoulder_trial("t1", 1.0, 0.5, duration=300.0))
     case = GapCase("long", "shoulder", (whole,), (), (), {}, {}, {})
     with patch.object(thinning, "ROWS", 800):
         (pieces,) = with_inputs_around(thinned(case, system.outputs), system.outputs).calibration
@@ -178,6 +183,124 @@ def test_an_arm_that_swings_is_where_it_is_in_the_whole_trial() -> None:
     used = np.isfinite(pieces.column("force"))
     off = found[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
     assert used.sum() > 300 and (np.sqrt(np.mean(off**2, axis=0)) < 3e-3 * expected.std(axis=0)).all()
+
+
+def arm(rate: float, lasts: float, holds: bool = False, empty: float = 0.0) -> Trial:
+    """An elbow in two sines, or in bursts of 1 Hz and holds of 15 s; a share of cells is empty."""
+    rng, time = np.random.default_rng(0), np.arange(round(lasts * rate)) / rate
+    beta = 0.2 * np.sin(2.0 * np.pi * 0.8 * time) + 0.1 * np.sin(2.0 * np.pi * 0.23 * time)
+    if holds:
+        turns = np.cumsum(time % 17.0 < 2.0) / rate
+        beta = 0.2 * np.sin(2.0 * np.pi * 1.0446 * turns) * (0.5 + 0.5 * np.sin(0.01 * time) ** 2)
+    beta[rng.random(len(time)) < empty] = np.nan
+    signals = Signals(time, np.column_stack([beta, np.zeros(len(time))]), ("beta", "force"), ("rad", "N"))
+    return Trial(f"{rate:g} Hz", signals)
+
+
+def in_pieces(rows: int, *trials: Trial) -> GapCase:
+    case = replace(elbow_case("", seed=3), calibration=trials, evaluation=())
+    with patch.object(thinning, "ROWS", rows):
+        return with_inputs_around(thinned(case, ("force",)), ("force",))
+
+
+def misses(case: GapCase, trials: tuple[Trial, ...], effect: str, values: dict[str, float]) -> np.ndarray:
+    """Rms of what predictions from pieces miss those from whole trials by [N], and standard deviation of the latter."""
+    system = system_of(case).scaled(trials, TRUE)
+    model = next(one.apply(system) for one in candidates(system) if one.label == effect)
+    found = []
+    for whole, pieces in zip(trials, case.calibration, strict=True):
+        expected, seen = (model.simulate(one, {**TRUE, **values}) for one in (whole, pieces))
+        used = np.isfinite(pieces.column("force"))
+        off = seen[used] - expected[np.searchsorted(whole.time, pieces.time[used])]
+        found.append((np.sqrt(np.mean(off**2)), expected.std()))
+    return np.array(found).T
+
+
+@pytest.mark.parametrize(
+    ("effect", "values", "most"),
+    [
+        ("clock_slip.once", {"clock_slip.once.delay": -0.5, "clock_slip.once.when": 0.5}, 1e-6),
+        ("clock_slip.once", {"clock_slip.once.delay": 0.5, "clock_slip.once.when": 0.5}, 1e-6),
+        ("filter_lag", {"filter_lag.lag": 0.5, "filter_lag.order": 2.0}, 5e-3),
+        ("relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 4.0}, 0.03),
+        ("relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 60.0}, 0.04),
+    ],
+)
+def test_pieces_of_quicker_recordings_are_as_good(effect: str, values: dict[str, float], most: float) -> None:
+    """At 100 Hz; effects at the ends of their ranges."""
+    trial = arm(100.0, 600.0)
+    case = in_pieces(700, trial)
+    missed, size = misses(case, (trial,), effect, values)
+    assert len(case.calibration[0]) < 0.1 * len(trial) and (missed < most * size).all()
+
+
+def test_lags_of_mixed_rates_are_those_of_the_slower() -> None:
+    trials = arm(1000.0, 40.0), arm(100.0, 200.0), arm(100.0, 200.0)
+    case = in_pieces(2_000, *trials)
+    assert all(len(few) < 0.8 * len(whole) for few, whole in zip(case.calibration, trials, strict=True))
+    for effect, values in (
+        ("clock_slip.once", {"clock_slip.once.delay": -0.5, "clock_slip.once.when": 0.5}),
+        ("play.beta", {"play.beta.width": 0.1, "play.beta.start": 0.0}),
+    ):
+        missed, size = misses(case, trials, effect, values)
+        assert (missed < 1e-3 * size).all(), effect
+
+
+def test_the_rate_of_a_clock_is_sought_as_far_as_inputs_reach() -> None:
+    """-0.05 % over 1000 s of 100 Hz, half of the lags that inputs stay for; whole trials have the former range."""
+    trial = arm(100.0, 1000.0)
+    case = in_pieces(1_200, trial)
+    (own,) = (one for one in candidates(system_of(case).scaled(case.calibration)) if one.label == "clock_slip.steady")
+    (rate,) = own.parameters
+    assert rate.upper == -rate.lower == pytest.approx(50 * 0.01 / 1000.0, rel=1e-3)
+    missed, size = misses(case, (trial,), "clock_slip.steady", {rate.name: rate.lower})
+    assert missed[0] < 1e-6 * size[0]
+    (own,) = (one for one in candidates(system_of(case).scaled((trial,))) if one.label == "clock_slip.steady")
+    assert own.parameters[0].upper == 0.1
+
+
+def test_play_and_friction_remember_from_which_side_a_hold_was_reached() -> None:
+    """Synthetic: limits in shares of a noise of 0.12 N; means alone were off by one to four times as much."""
+    trial = arm(100.0, 1000.0, holds=True)
+    case = in_pieces(1_200, trial)
+    for effect, values in (
+        ("play.beta", {"play.beta.width": 0.1, "play.beta.start": 0.0}),
+        ("dry_friction.stroke", {"dry_friction.stroke.limit": 2.0, "dry_friction.stroke.reach": 0.01}),
+    ):
+        missed, _ = misses(case, (trial,), effect, values)
+        assert missed[0] < 0.25 * 0.12, effect
+
+
+def test_turning_points_are_those_that_hysteresis_keeps() -> None:
+    """Of 3 (wiped out by 5), 5, -4, 2 (by 3), -1 (by -2), 3, -2, and the value at the end, 0."""
+    stops = np.array([0.0, 3.0, -3.0, 5.0, -4.0, 2.0, -1.0, 3.0, -2.0, 0.0])
+    values = np.interp(np.arange(91), 10 * np.arange(10), stops)
+    values[[5, 35]] = np.nan
+    found = turning_points(values, 1e-3)
+    assert sorted(values[found]) == [-4.0, -2.0, 3.0, 5.0]
+    assert not len(turning_points(np.full(20, np.nan), 0.0)) and not len(turning_points(np.ones(20), 0.0))
+
+
+def test_a_cell_that_was_not_measured_is_not_made_up() -> None:
+    """One of a hundred is empty, as where a marker is hidden: nearly every mean has one in it."""
+    trial = arm(100.0, 600.0, empty=0.01)
+    case = in_pieces(700, trial)
+    beta = case.calibration[0].column("beta")
+    system = system_of(case)
+    few, whole = (system.scaled(one).scale.span["beta"] for one in (case.calibration, (trial,)))
+    assert np.isfinite(beta).mean() > 0.98 and few == pytest.approx(whole, rel=0.05)
+    missed, size = misses(case, (trial,), "relaxation", {"relaxation.ratio": 0.5, "relaxation.tau": 60.0})
+    assert missed[0] < 0.05 * size[0]
+
+
+def test_where_a_trial_moves_most_stays_whole() -> None:
+    """Seven seconds of rest first; spectra, half-ranges and the next experiment are taken from there."""
+    trial = arm(100.0, 600.0)
+    trial.signals.values[:700, 0] *= 1e-3
+    (few,) = in_pieces(700, trial).calibration
+    long = [rows for rows in few.runs if rows.start and rows.stop - rows.start >= BEGINNING]
+    assert len(long) == 1 and np.std(few.column("beta")[long[0]]) > 0.9 * np.std(trial.column("beta"))
+    assert reaches(replace(elbow_case(""), calibration=(trial,))) == pytest.approx((1.2, 0.64))
 
 
 def test_simulators_of_others_see_all_inputs() -> None:

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 import geocontact as gc
+from geocontact.io.text.side_table import LARGEST_RESULT, LARGEST_TABLE
 from tests.shoulder_exoskeleton.arms import raised
 
 TIME = np.arange(601) * 0.01
@@ -155,6 +156,14 @@ def test_a_recording_that_cannot_be_meant_is_warned_of(tmp_path: Path, factor: f
     file = recorded(tmp_path, **{"elevation [deg]": angle, "force [N]": factor * 0.2 * angle + shift})
     with pytest.warns(gc.InputWarning, match=words):
         gc.shoulder.compare(simulated(tmp_path), file)
+
+
+def test_an_hour_of_results_is_read(tmp_path: Path) -> None:
+    """More than other tables may hold."""
+    file, angle = simulated(tmp_path), np.degrees(raised(TIME))
+    file.write_text(("#" + 998 * " " + "\n") * (LARGEST_TABLE // 1000 + 1) + file.read_text("utf-8"), "utf-8")
+    table = gc.shoulder.compare(file, recorded(tmp_path, **{"elevation [deg]": angle + 1.0})).table()
+    assert LARGEST_TABLE < file.stat().st_size < LARGEST_RESULT and table["mae"][0] == pytest.approx(1.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("late", [1.0, -0.8])

@@ -47,7 +47,7 @@ from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_words
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Course
 from geocontact.identify.goodness_of_fit import GoodnessOfFit, of_range
-from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.side_table import LARGEST_RESULT, read_side_table
 from geocontact.shoulder_exoskeleton.beside_recording import (
     ALL,
     ALONG,
@@ -131,7 +131,7 @@ def _doubt_side(o: ShoulderCompareOptions) -> None:
 def _simulated(path: Path, channels: Collection[str]) -> tuple[Channels, tuple[str, ...], float]:
     own = {channel: name for channel, name in SIMULATED.items() if channel in channels}
     needed = ("time [s]", "phase", *own.values())
-    table = read_side_table(path, (*needed, OUT))
+    table = read_side_table(path, (*needed, OUT), LARGEST_RESULT)
     missing = [name for name in needed if name not in table]
     if missing:
         remedy = "give right.csv or left.csv of shoulder simulate"
