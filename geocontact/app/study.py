@@ -8,9 +8,9 @@ from math import isfinite
 from pathlib import Path
 
 from geocontact.analyses.frame.calls import key
+from geocontact.analyses.frame.file_content import holds
 from geocontact.app.fields import Field, Form
 from geocontact.cli.command import FORMS
-from geocontact.io.text.file_preflight import read_bytes
 
 HEAD = """\
 # A study of one trial. To make it one of many: name the files by a pattern, files = "data/{{subject}}_{{trial}}.csv",
@@ -37,7 +37,7 @@ def written_study(file: Path, described: str) -> Path:
     numbered = (file.with_stem(f"{file.stem}-{k}") for k in count(2))
     place = file
     content = described.encode()
-    while place.exists() and not (place.is_file() and read_bytes(place) == content):
+    while place.exists() and not holds(place, content):
         place = next(numbered)
     place.write_bytes(content)
     return place

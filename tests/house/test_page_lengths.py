@@ -11,13 +11,14 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 46_440, "how-to": 26_670, "everything": 88_940}
+ALL_WORDS = {"theory, reference": 47_040, "how-to": 27_120, "everything": 90_460}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
 controller; a foot of one's own; files of strangers; movements, shear, walking and muscles, a whole body in the
 plane, pairs of bodies, keys and checks of made pages; marker sets, folders, an exoskeleton and a person of one's
-own, picked landmarks, bodies at rest on several others, feet of a model."""
+own, picked landmarks, bodies at rest on several others, feet of a model, a window, segments and sensors, commands
+beside peers and the growth of all."""
 LIMITS = {
     "how-to/cohort.md": 950,
     "how-to/compare.md": 240,
@@ -68,9 +69,9 @@ LIMITS = {
     "reference/opensim_models.md": 600,
     "reference/paper_004.md": 1180,
     "reference/real_implants.md": 550,
-    "reference/speed.md": 1080,
+    "reference/speed.md": 1330,
     "reference/terms.md": 540,
-    "reference/written_files.md": 1750,
+    "reference/written_files.md": 1760,
     "theory/centre_of_pressure.md": 720,
     "theory/collocation.md": 760,
     "theory/contact_area.md": 1660,
@@ -82,7 +83,7 @@ LIMITS = {
     "theory/gap_diagnosis.md": 3420,
     "theory/gap_models.md": 1340,
     "theory/mat_draping.md": 1070,
-    "theory/multibody.md": 690,
+    "theory/multibody.md": 700,
     "theory/planar_joint.md": 500,
     "reference/descriptions.md": 4240,
     "theory/prosthesis_both_sides.md": 880,

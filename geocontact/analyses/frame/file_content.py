@@ -64,6 +64,13 @@ def content_of(path: Path) -> Content:
     return found
 
 
+def holds(path: Path, content: bytes) -> bool:
+    """Whether a regular file is there and holds these bytes."""
+    from geocontact.io.text.file_preflight import read_bytes
+
+    return path.is_file() and path.stat().st_size == len(content) and (not content or read_bytes(path) == content)
+
+
 def markers_in_common(recorded: Iterable[str], model: Iterable[str]) -> str:
     """How many of a model's markers a recording has, and which it has not."""
     has, wanted = set(recorded), list(model)
