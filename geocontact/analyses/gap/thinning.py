@@ -170,7 +170,7 @@ def _with_means(
     turns &= ~whole
     sparse = sparse & ~turns
     fixed = np.flatnonzero(whole | turns)
-    for a, b in pairwise(fixed):  # a mean between two turning points that have none
+    for a, b in pairwise(map(int, fixed)):  # a mean between two turning points that have none
         if b - a > FEWEST and not sparse[a:b].any():
             sparse[(a + b) // 2] = True
     rows = np.flatnonzero(whole | turns | sparse)
@@ -178,10 +178,10 @@ def _with_means(
         turns[rows[:-1]], rows[:-1] + 1, np.where(turns[rows[1:]], rows[1:], (rows[1:] + rows[:-1] + 1) // 2)
     )
     time, values, used = signals.time.copy(), signals.values.copy(), whole | turns
-    for k in np.flatnonzero(sparse[rows]):
+    for k in map(int, np.flatnonzero(sparse[rows])):
         inside = np.arange(edges[k - 1], edges[k])
         for place, at, mean in _halves(signals.time[inside], signals.values[inside][:, moved]):
-            row = inside[place]
+            row = int(inside[place])
             time[row], values[row, moved], used[row] = at, mean, True
     return replace(signals, time=time[used], values=values[used])
 
@@ -225,7 +225,7 @@ def turning_points(values: Float[np.ndarray, " t"], least: float) -> Int[np.ndar
     way = np.sign(np.diff(high)) - np.sign(-np.diff(low))
     at = 1 + np.flatnonzero((way != 0.0) & (high - low > least)[1:])
     last = np.append(np.diff(way[at - 1]) != 0.0, True)[: len(at)]
-    return there[at[last]]
+    return np.asarray(there[at[last]])
 
 
 def liveliest(values: Float[np.ndarray, "t i"]) -> slice:
