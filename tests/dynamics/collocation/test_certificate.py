@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
 from casadi import SX, Function
 from scipy.linalg import expm
 
-from geocontact.dynamics.collocation import certificate as module
 from geocontact.dynamics.collocation.certificate import (
     Certificate,
     CertificateLimits,
-    Resimulation,
     certificate,
     fine_residual,
     residuals,
@@ -35,7 +32,6 @@ from geocontact.dynamics.equations import equations_of_motion
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.tree import tree_of
 from tests.dynamics.models import pendulum
-from tests.dynamics.test_simulate import slider
 
 LENGTHS, MASSES, SECONDS = (0.4, 0.5), (2.0, 1.0), 0.8
 WIDE = 1e3
@@ -81,8 +77,6 @@ def test_a_solution_on_a_fine_mesh_passes(swung, kind: str) -> None:
     seen = judged(*swung, found)
     assert seen.converged, seen
     assert seen.moment < 0.05 and seen.interval < 1e-5 and seen.open_loop < 1e-4, seen
-    assert seen.open_loop == pytest.approx(seen.expected, rel=0.02, abs=1e-9), seen
-    assert seen.expected <= seen.bound, seen
 
 
 def test_a_coarse_mesh_fails_although_the_solver_is_content(swung) -> None:
@@ -187,85 +181,6 @@ def test_radau_s_first_acceleration_is_free_unless_held(swung) -> None:
     assert sizes[1] < 1e-6 < 1e-3 < sizes[0], sizes
 
 
-def moved(found: CollocationResult, at: np.ndarray) -> CollocationResult:
-    """The motion with angles and rates of its nodes, (m + 1, 2 n), moved: a different error in every interval."""
-    motion = found.motions[0]
-    states, end, k = motion.states.copy(), motion.end.copy(), at.shape[1]
-    states[:, 0, :k] += at[:-1]
-    end[:k] += at[-1]
-    return replace(found, motions=(replace(motion, states=states, end=end),))
-
-
-def driven_spring() -> tuple[ControlProblem, Stepper, np.ndarray]:
-    """A body pushed away from its place by 9 times the distance, at rest there; its flow over a fifth of a second."""
-    tree, force = tree_of(slider(1.0)), SX.sym("force")
-    equations = equations_of_motion(tree, along={"s": 9.0 * tree.q[0] + force}, inputs=[force])
-    system = jerk_controlled(equations, controlled=(0,), control_names=("f",))
-    x, wide = np.zeros(3), np.full(3, WIDE)
-    trial = ControlledTrial(
-        "spring",
-        0.0,
-        (1.0, 1.0),
-        (-wide, wide),
-        (np.full(2, -WIDE), np.full(2, WIDE)),
-        (x, x),
-        (x, x),
-        lambda t: np.zeros((len(t), 3)),
-        lambda t: np.zeros((len(t), 2)),
-    )
-    flow = expm(np.array([[0.0, 1.0], [9.0, 0.0]]) / 5.0)
-    return ControlProblem(system, (trial,)), Stepper(equations), flow
-
-
-def test_the_open_loop_of_a_linear_system_is_the_sum_of_its_departures() -> None:
-    """By hand, with signs; the bound is the same with sizes, here far larger."""
-    problem, stepper, flow = driven_spring()
-    at = 1e-3 * np.array([[0.1, 0.0], [-1.0, 2.0], [1.5, -4.0], [-1.0, 3.0], [1.0, 0.0], [0.5, 0.0]])
-    found = moved(solve(problem, SolverOptions(intervals=5)), at)
-    trial = problem.trials[0]
-    again = resimulation(stepper, found.motions[0], found.p, trial.inputs, (0,))
-    seen = certificate(found.solved, problem.system, trial, again, (False,))
-    off = [flow @ start - end for start, end in pairwise(at)]
-    grown = np.array([np.linalg.matrix_power(flow, 4 - k) @ each for k, each in enumerate(off)])
-    assert seen.expected == pytest.approx(abs(grown.sum(axis=0)[0]), rel=1e-5)
-    assert seen.bound == pytest.approx(np.abs(grown).sum(axis=0)[0], rel=1e-5)
-    assert seen.bound > 3.0 * seen.expected > 1e-4
-    assert seen.open_loop == pytest.approx(seen.expected, rel=1e-5)
-    assert not any("open loop" in words for words in seen.failed)
-
-
-@pytest.mark.parametrize("factor", [0.0, -1.0, 1e6])
-def test_an_open_loop_that_is_not_expected_fails(monkeypatch: pytest.MonkeyPatch, factor: float) -> None:
-    """Departures that the intervals do not have, or have the other way round: the run says otherwise."""
-    problem, stepper, _ = driven_spring()
-    at = 1e-2 * np.array([[1.0, 0.0], *5 * [[0.0, 0.0]]])
-    found = moved(solve(problem, SolverOptions(intervals=5)), at)
-    trial = problem.trials[0]
-    again = resimulation(stepper, found.motions[0], found.p, trial.inputs, (0,))
-    true = module._after_intervals
-    nodes = again.states()[1:]
-    monkeypatch.setattr(module, "_after_intervals", lambda of: nodes + factor * (true(of) - nodes))
-    seen = certificate(found.solved, problem.system, trial, again, (False,))
-    assert any(words.startswith("open loop of s: 0.1") and " m, to first order" in words for words in seen.failed), seen
-
-
-def test_steps_that_do_not_reach_the_end_are_a_failed_certificate(
-    swung: tuple[ControlProblem, Stepper], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Even steps may fail where those that follow the error do not."""
-    found, true = solve(swung[0], SolverOptions("radau", 4, 4)), Resimulation.after
-
-    def after(self: Resimulation, start: np.ndarray, time: np.ndarray, steps: int | None = None) -> np.ndarray:
-        ended = true(self, start, time, steps)
-        return ended if steps is None else np.full_like(ended, np.inf)
-
-    monkeypatch.setattr(Resimulation, "after", after)
-    seen = judged(*swung, found)
-    assert not seen.converged and np.isnan([seen.growth, seen.growth_rate, seen.expected, seen.bound]).all()
-    assert "departures could not be followed to the end, so that the open loop is not judged" in seen.failed
-    assert np.isfinite(seen.open_loop)
-
-
 def test_growth_of_an_upright_pendulum_is_that_of_its_linear_equation() -> None:
     """At rest upside down: deviations grow by exp(A T), sqrt(g / l) in the end."""
     length, g = 0.7, 9.81
@@ -288,7 +203,5 @@ def test_growth_of_an_upright_pendulum_is_that_of_its_linear_equation() -> None:
     again = resimulation(Stepper(equations), found.motions[0], found.p, trial.inputs, (0,))
     seen = certificate(found.solved, system, trial, again, (True,))
     flow = expm(np.array([[0.0, 1.0], [g / length, 0.0]]))
-    assert seen.growth == pytest.approx(np.linalg.norm(flow, 2), rel=1e-6)
+    assert seen.growth == pytest.approx(np.linalg.norm(flow, 2), rel=1e-3)
     assert seen.converged, seen
-    each = expm(np.array([[0.0, 1.0], [g / length, 0.0]]) / 5.0)
-    np.testing.assert_allclose(again.tangents(), np.tile(each, (5, 1, 1)), rtol=1e-7)
