@@ -90,7 +90,7 @@ def thinned_and_said(case: GapCase, system: System) -> tuple[GapCase, tuple[str,
     if used < rows:
         where = f"in stretches of {STRETCH} that lie evenly over every trial"
         said.append(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
-        case = with_inputs_around(fewer, outputs) if _own(case.system) else fewer
+        case = with_inputs_around(fewer, outputs, system.inputs) if _own(case.system) else fewer
         seen, whole = (sum(map(len, (*each.calibration, *each.evaluation))) for each in (case, fewer))
         if seen < whole:
             lead, _ = reaches(fewer)
@@ -131,20 +131,26 @@ def _own(system: str) -> bool:
 def reaches(case: GapCase) -> tuple[float, float]:
     """Time before and behind each stretch for which inputs stay [s], from the longest lags that effects may have.
 
-    Those are so many steps of the fitted trials, here of the coarsest one; rates reach on from there.
+    Those are so many steps of the coarsest trial; rates reach on from there. A clock that is fast or slow shifts the
+    end of a trial that is longer than the fitted ones by more.
     """
-    step = max(float(np.median(np.diff(trial.time))) for trial in case.calibration)
-    ahead = LONGEST * step + max(RATES * step, 2.0 * REACH)
+    trials = (*case.calibration, *case.evaluation)
+    step = max(float(np.median(np.diff(trial.time))) for trial in trials)
+    fitted, longest = (max(float(np.ptp(one.time)) for one in side) for side in (case.calibration, trials))
+    ahead = LONGEST * step * longest / fitted + max(RATES * step, 2.0 * REACH)
     return max(SETTLES, ahead), ahead
 
 
-def with_inputs_around(case: GapCase, outputs: Sequence[str]) -> GapCase:
-    """The case without the rows of inputs that lie far from all samples of these outputs."""
+def with_inputs_around(case: GapCase, outputs: Sequence[str], inputs: Sequence[str]) -> GapCase:
+    """The case without the rows of inputs that lie far from all samples of these outputs.
+
+    Further columns of the trials, which the model does not use, decide nothing.
+    """
     lead, ahead = reaches(case)
 
     def fewer(trial: Trial) -> Trial:
         signals = trial.signals
-        moved = [k for k, name in enumerate(signals.channels) if name not in outputs and not switches([trial], name)]
+        moved = [k for k, name in enumerate(signals.channels) if name in inputs and not switches([trial], name)]
         measured = np.isfinite(np.stack([trial.column(name) for name in outputs])).any(axis=0)
         whole, sparse = rows_around(trial.time, measured, lead, ahead, liveliest(signals.values[:, moved]))
         edges = np.flatnonzero(np.diff(whole.astype(int), prepend=0, append=0)).reshape(-1, 2)
@@ -173,32 +179,34 @@ def _with_means(
     for a, b in pairwise(map(int, fixed)):  # a mean between two turning points that have none
         if b - a > FEWEST and not sparse[a:b].any():
             sparse[(a + b) // 2] = True
-    rows = np.flatnonzero(whole | turns | sparse)
+    used = whole | turns
+    rows = np.flatnonzero(used | sparse)
     edges = np.where(
-        turns[rows[:-1]], rows[:-1] + 1, np.where(turns[rows[1:]], rows[1:], (rows[1:] + rows[:-1] + 1) // 2)
+        used[rows[:-1]], rows[:-1] + 1, np.where(used[rows[1:]], rows[1:], (rows[1:] + rows[:-1] + 1) // 2)
     )
-    time, values, used = signals.time.copy(), signals.values.copy(), whole | turns
+    time, values = signals.time.copy(), signals.values.copy()
+    ranges = np.array([float(np.nanmax(x) - np.nanmin(x)) for x in signals.values[:, moved].T])
     for k in map(int, np.flatnonzero(sparse[rows])):
         inside = np.arange(edges[k - 1], edges[k])
-        for place, at, mean in _halves(signals.time[inside], signals.values[inside][:, moved]):
+        for place, at, mean in _halves(signals.time[inside], signals.values[inside][:, moved], ranges):
             row = int(inside[place])
             time[row], values[row, moved], used[row] = at, mean, True
     return replace(signals, time=time[used], values=values[used])
 
 
 def _halves(
-    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t i"]
+    time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t i"], ranges: Float[np.ndarray, " i"]
 ) -> list[tuple[int, float, Float[np.ndarray, " i"]]]:
     """Rows, times and means of the lower and the upper half of a cell's samples, the earlier one first.
 
-    Halves of what moves most: a spring that is not straight is bent over both of them, as over the samples. One mean of
-    a short cell, none where an input was not measured.
+    Halves of what moves most, of its range in the trial: a spring that is not straight is bent over both of them, as
+    over the samples. One mean of a short cell, none where an input was not measured or none moves in the trial.
     """
     there, count = np.isfinite(values), len(time)
-    if not there.any(axis=0).all():
+    if not len(ranges) or not there.any(axis=0).all():
         return []
     spread = np.nanmax(values, axis=0) - np.nanmin(values, axis=0)
-    order = np.argsort(values[:, int(np.argmax(spread))], kind="stable")
+    order = np.argsort(values[:, int(np.argmax(spread / ranges))], kind="stable")
     parts = [order[: count // 2], order[count // 2 :]] if count >= FEWEST else [order]
     if not all(there[part].any(axis=0).all() for part in parts):
         parts = [order]

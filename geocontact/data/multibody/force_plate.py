@@ -36,7 +36,7 @@ def lengths_outside(
 
     NaN for a plate that is never loaded.
     """
-    heavy = (load >= max(gate, HEAVY * float(load.max()))) & np.isfinite(centre).all(axis=1)
+    heavy = (load >= max(gate, HEAVY * float(np.nanmax(load, initial=0.0)))) & np.isfinite(centre).all(axis=1)
     if not heavy.any():
         return float("nan")
     a, b, c, d = corners

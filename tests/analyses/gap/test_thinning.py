@@ -162,7 +162,7 @@ def test_pieces_are_simulated_as_in_the_whole_trial(effect: str, values: dict[st
     model = next((one.apply(system) for one in candidates(system) if one.label == effect), system)
     assert bool(effect) == (model is not system)
     with patch.object(thinning, "ROWS", 2_000):
-        fewer = with_inputs_around(thinned(case, ("force",)), ("force",))
+        fewer = with_inputs_around(thinned(case, ("force",)), ("force",), ("beta",))
     for whole, pieces in zip(case.calibration, fewer.calibration, strict=True):
         assert len(pieces) < 0.2 * len(whole) and pieces.time[-1] == whole.time[-1]
         expected, found = (model.simulate(one, {**TRUE, **values}) for one in (whole, pieces))
@@ -177,7 +177,7 @@ def test_an_arm_that_swings_is_where_it_is_in_the_whole_trial() -> None:
     whole = measured(system, shoulder_trial("t1", 1.0, 0.5, duration=300.0))
     case = GapCase("long", "shoulder", (whole,), (), (), {}, {}, {})
     with patch.object(thinning, "ROWS", 800):
-        (pieces,) = with_inputs_around(thinned(case, system.outputs), system.outputs).calibration
+        (pieces,) = with_inputs_around(thinned(case, system.outputs), system.outputs, system.inputs).calibration
     assert len(pieces) < 0.15 * len(whole)
     expected, found = (system.simulate(one, system.start) for one in (whole, pieces))
     used = np.isfinite(pieces.column("force"))
@@ -200,7 +200,7 @@ def arm(rate: float, lasts: float, holds: bool = False, empty: float = 0.0) -> T
 def in_pieces(rows: int, *trials: Trial) -> GapCase:
     case = replace(elbow_case("", seed=3), calibration=trials, evaluation=())
     with patch.object(thinning, "ROWS", rows):
-        return with_inputs_around(thinned(case, ("force",)), ("force",))
+        return with_inputs_around(thinned(case, ("force",)), ("force",), ("beta",))
 
 
 def misses(case: GapCase, trials: tuple[Trial, ...], effect: str, values: dict[str, float]) -> np.ndarray:
@@ -300,7 +300,7 @@ def test_where_a_trial_moves_most_stays_whole() -> None:
     (few,) = in_pieces(700, trial).calibration
     long = [rows for rows in few.runs if rows.start and rows.stop - rows.start >= BEGINNING]
     assert len(long) == 1 and np.std(few.column("beta")[long[0]]) > 0.9 * np.std(trial.column("beta"))
-    assert reaches(replace(elbow_case(""), calibration=(trial,))) == pytest.approx((1.2, 0.64))
+    assert reaches(replace(elbow_case(""), calibration=(trial,), evaluation=())) == pytest.approx((1.2, 0.64))
 
 
 def test_simulators_of_others_see_all_inputs() -> None:
@@ -342,3 +342,42 @@ def longer(trial: Trial, times: int) -> Trial:
     step = trial.time[1] - trial.time[0]
     values = np.tile(trial.signals.values, (times, 1))
     return replace(trial, signals=replace(trial.signals, time=step * np.arange(len(values)), values=values))
+
+
+def test_a_column_that_the_model_does_not_use_decides_nothing() -> None:
+    """Of a large unit, and recorded for the first minute only."""
+    plain = arm(100.0, 600.0)
+    spare = np.where(plain.time < 60.0, 1e4 * np.sin(plain.time), np.nan)
+    values = np.column_stack([plain.signals.values, spare])
+    signals = Signals(plain.time, values, (*plain.signals.channels, "emg"), (*plain.signals.units, "V"))
+    (alone,), (beside,) = (in_pieces(700, one).calibration for one in (plain, replace(plain, signals=signals)))
+    assert np.array_equal(alone.time, beside.time)
+    assert np.array_equal(alone.column("beta"), beside.column("beta"))
+
+
+def test_an_input_s_unit_decides_nothing() -> None:
+    """An angle beside a force that is a million times as large, and moves little while the angle swings."""
+    angle = arm(100.0, 600.0)
+    slow = 1e6 * np.clip(angle.time / 600.0, 0.0, 1.0)
+    values = np.column_stack([angle.signals.values, slow])
+    signals = Signals(angle.time, values, ("beta", "force", "load"), ("rad", "N", "N"))
+    case = replace(elbow_case("", seed=3), calibration=(replace(angle, signals=signals),), evaluation=())
+    with patch.object(thinning, "ROWS", 700):
+        (both,) = with_inputs_around(thinned(case, ("force",)), ("force",), ("beta", "load")).calibration
+    middle = both.column("beta")[~np.isin(both.time, angle.time)]  # means lie between the samples
+    assert len(middle) > 20 and np.ptp(middle) > 0.2
+
+
+def test_a_long_trial_in_which_nothing_moves_stays_beside_one_that_does() -> None:
+    still = arm(100.0, 600.0)
+    values = np.column_stack([np.full(len(still), 0.1), np.zeros(len(still))])
+    held = replace(still, signals=replace(still.signals, values=values))
+    _, found = in_pieces(700, still, held).calibration
+    assert len(found) < 0.2 * len(held) and (found.column("beta") == 0.1).all()
+
+
+def test_inputs_reach_further_where_a_trial_is_longer_or_slower_than_the_fitted_ones() -> None:
+    """50 steps of a clock over the fitted 60 s are 500 over 600 s; a trial at 25 Hz has steps of 40 ms."""
+    fitted = replace(elbow_case("", seed=3), calibration=(arm(100.0, 60.0),), evaluation=())
+    ahead = [reaches(replace(fitted, evaluation=each))[1] for each in ((), (arm(100.0, 600.0),), (arm(25.0, 60.0),))]
+    assert ahead == pytest.approx([0.64, 0.5 * 599.99 / 59.99 + 0.14, 2.0 + 0.56], rel=1e-3)

@@ -116,16 +116,18 @@ class Segments:
     def off_its_way(self) -> float | None:
         """Level angle between the way of the root's origin and where its x axis points in the mean [rad].
 
-        None of sensors, and where the way from the first to the last frame is shorter than `WALKED`.
+        None of sensors, and where the way from the first to the last frame is shorter than `WALKED`, or less than half
+        as long as the furthest from the first: who comes back faces both ways.
         """
         there = np.flatnonzero(self.poses.there[:, self.root])
         if self.poses.origins is None or not len(there):
             return None
         level = np.eye(3) - np.outer(self.up, self.up)
-        way = level @ (self.poses.origins[there[-1], self.root] - self.poses.origins[there[0], self.root])
+        ways = (self.poses.origins[there, self.root] - self.poses.origins[there[0], self.root]) @ level
+        way, furthest = ways[-1], float(np.linalg.norm(ways, axis=1).max())
         axis = self.placed[self.root].rotation.as_matrix().T[:, 0]
         faced = level @ (self.poses.rotations[there, self.root] @ axis).mean(axis=0)
-        if np.linalg.norm(way) < WALKED or np.linalg.norm(faced) < UPRIGHT:
+        if np.linalg.norm(way) < max(WALKED, 0.5 * furthest) or np.linalg.norm(faced) < UPRIGHT:
             return None
         return float(np.arccos(np.clip(way @ faced / (np.linalg.norm(way) * np.linalg.norm(faced)), -1.0, 1.0)))
 
