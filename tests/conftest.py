@@ -18,12 +18,14 @@ import hypothesis
 import pytest
 from jaxtyping import install_import_hook
 
+from tests.browsers import browser
 from tests.drawing import undrawn
 from tests.elsewhere import Elsewhere, another_process, here
 from tests.one_core import one_core
 from tests.recording import close
 from tests.scheduling import FileByFile, lasting_first, run_before
 
+__all__ = ["browser"]  # one for all rooms: playwright starts once in a process
 ROOT = Path(__file__).resolve().parents[1]
 REAL = ROOT / "tests" / "real"
 ROOMS_OF_CALLS = {ROOT / "tests" / "analyses", ROOT / "tests" / "cli", ROOT / "tests" / "study"}

@@ -1,15 +1,12 @@
-"""One headless browser for all tests of the page; skipped, with the reason, where there is none (in CI: failed)."""
+"""Pages in the browser that all tests share."""
 
 from __future__ import annotations
 
-import os
-import shutil
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -20,8 +17,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext
     from playwright.sync_api import Page as Tab
 
-CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
-SOFTWARE = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 DESKTOP = {"viewport": {"width": 1280, "height": 800}}
 PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True, "device_scale_factor": 2}
 READY = 60_000  # ms; a busy machine without a graphics card
@@ -71,32 +66,6 @@ def rows(opened: Opened) -> dict[str, str]:
     seen = "[...document.querySelectorAll('.readout:not([hidden]) tr')]"
     script = f"{seen}.map(r => [...r.children].map(c => c.textContent.trim()))"
     return {cells[0]: cells[1] for cells in opened.tab.evaluate(script) if len(cells) > 1}
-
-
-def absent(reason: str) -> NoReturn:
-    """Skip on a desk; fail where the tests are relied upon."""
-    if os.environ.get("CI"):
-        pytest.fail(reason)
-    pytest.skip(reason)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    try:
-        from playwright import sync_api
-    except ImportError as missing:
-        absent(f"playwright is not installed: {missing}")
-    executable = next(filter(None, map(shutil.which, CHROMIUM)), None)
-    if executable is None:
-        absent("no chromium on PATH: apt install chromium")
-    with ExitStack() as open_until_the_end:
-        try:
-            playwright = open_until_the_end.enter_context(sync_api.sync_playwright())
-        except Exception as broken:  # noqa: BLE001 - the driver is a program of its own and fails in ways of its own
-            absent(f"the driver of the browser does not start: {broken}")
-        chromium = playwright.chromium.launch(executable_path=executable, args=SOFTWARE)
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture

@@ -10,7 +10,8 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 from geocontact.view.page.write import write_page
-from tests.view.page.conftest import CHROMIUM, DESKTOP, PHONE, READY, SOFTWARE
+from tests.browsers import CHROMIUM, SOFTWARE
+from tests.view.page.conftest import DESKTOP, PHONE, READY
 from tests.view.page.examples import curves_page, small_page
 from tests.view.page.hostile import HOSTILE, hostile_page
 

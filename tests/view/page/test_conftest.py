@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.view.page.conftest import absent
+from tests.browsers import absent
 
 
 @pytest.mark.parametrize(("ci", "outcome"), [("", pytest.skip.Exception), ("true", pytest.fail.Exception)])
