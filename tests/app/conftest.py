@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.view.page.conftest import DESKTOP, browser
+from tests.view.page.conftest import DESKTOP
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
 
-__all__ = ["browser"]
 ENTRY = "from geocontact.cli.main import main; main()"
 
 
