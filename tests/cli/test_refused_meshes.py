@@ -47,7 +47,7 @@ MESHES: Cases = {
     "HTML named .stl": (ball(HTML), ("ball.stl", "an HTML page", "download the file itself")),
     "PLY named .stl": (ball(b"ply\nformat ascii 1.0\nend_header\n"), ("ball.stl", "a PLY file", "name it .ply")),
     "STL named .ply": ({"FIXED": file("floor.ply", FLOOR)}, ("floor.ply", "not a PLY file", "export")),
-    "unknown format": ({"MOVING": file("ball.step", BALL)}, ("ball.step", ".stl", "convert")),
+    "unknown format": ({"MOVING": file("ball.iges", BALL)}, ("ball.iges", ".stl", "convert")),
     "no extension": ({"MOVING": file("ball", BALL)}, ("ball", ".stl", "convert")),
     "missing file": ({"FIXED": "nowhere/floor.stl"}, ("nowhere/floor.stl", "no such file", "check the path")),
     "folder as mesh": ({"MOVING": made("ball.stl")}, ("ball.stl", "is a folder", "name a file")),

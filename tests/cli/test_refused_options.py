@@ -214,7 +214,7 @@ SLIPS = {
         "--treshold is not an option of area; did you mean --threshold?",
     ),
     "command of a group": (["settle"], "settle is not a command (`knee settle`?); "),
-    "unknown command": (["zzz"], "zzz is not a command; there are area, cohort, cop, "),
+    "unknown command": (["zzz"], "zzz is not a command; there are app, area, cohort, cop, "),
     "choice": ([*AREA, "--medial", "left"], 'Invalid value "left" for --medial. Choose from: "-", "+"; see'),
     "type": ([*AREA, "--workers", "all"], 'Invalid value for --workers: unable to convert "all" into int; see'),
     "twice": ([*AREA, "--unit", "m"], "Parameter --unit specified multiple times; see geocontact area --help"),
