@@ -105,7 +105,7 @@ def _application(queue: Queue, home: str) -> Application:
     from geocontact.app.pages import add_pages
 
     application = fastapi.FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
-    add_pages(queue)
+    add_pages(queue, application)
     ui.run_with(
         application,
         mount_path=home,

@@ -81,6 +81,23 @@ def test_it_ends_with_its_runs_and_its_folder(how: str, code: int, tmp_path: Pat
     assert not list(tmp_path.glob("geocontact-app-*")) and not list(tmp_path.rglob(".geocontact-*"))
 
 
+def test_no_answer_without_the_cookie_names_the_path_of_the_pages(tmp_path: Path) -> None:
+    process, address, port = started(tmp_path)
+    with process:
+        cookie, entrance = got(port, address.partition(str(port))[2])
+        found = re.search(r"url=/([^\"]+)/", entrance)
+        assert found is not None and got(port, f"/{found[1]}/", Cookie=cookie)[1]
+        for path in ("", "/", "/x", "/x/", "/x/y", "/x/y/", "/../form/area", "//", "/%2e%2e/", "/x%2fy"):
+            for method in ("GET", "HEAD", "POST", "OPTIONS"):
+                connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
+                connection.request(method, f"/result{path}")
+                answer = connection.getresponse()
+                said = f"{answer.headers}{answer.read().decode()}"
+                connection.close()
+                assert found[1] not in said and answer.status >= 300, (method, path, said)
+        process.terminate()
+
+
 def test_a_port_that_is_taken_is_said() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as other:
         other.bind(("127.0.0.1", 0))
