@@ -30,7 +30,7 @@ SANDBOX = (
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
 )
-"""Pages of results run their own scripts, but belong to no origin and load nothing: they reach no server."""
+"""Pages of results run their own scripts, but belong to no origin and load nothing; in a tab they can lead away."""
 
 
 class Shared:

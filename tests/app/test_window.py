@@ -349,6 +349,19 @@ def test_a_surface_is_looked_at_and_its_unit_offered_not_taken(window: Window) -
     tab.close()
 
 
+def test_a_relative_path_starts_where_the_window_does(window: Window) -> None:
+    """Another file of that name in the folder for results is not looked at."""
+    for folder, name in ((window.start, "cup_r24.stl"), (window.folder, "femoral_component_right_coarse.stl")):
+        (folder / "same.stl").write_bytes((sample_folder() / name).read_bytes())
+    tab = window.tab("form/fit")
+    tab.locator('[name="mesh"]').fill("same.stl")
+    said = "document.querySelector('.field:has([name=mesh]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes('triangles')", 60.0)
+    size = (window.start / "same.stl").stat().st_size
+    assert f"{(size - 84) // 50} triangles" in str(tab.evaluate(said))
+    tab.close()
+
+
 def test_a_unit_is_that_of_all_files_before_one_has_its_own(window: Window) -> None:
     tab = window.tab("form/area")
     drop(tab, "moving", sample_folder() / "femoral_component_right_coarse.stl")
