@@ -49,7 +49,7 @@ def main() -> None:
             tab = chromium.new_page()
             tab.goto(address)
             tab.wait_for_selector("h1")
-            home, paints = address.partition("?")[0], []
+            home, paints = tab.url, []
             for _ in range(TIMES):
                 tab.goto(home)
                 tab.wait_for_selector("h1")
@@ -63,7 +63,7 @@ def main() -> None:
                     tab.wait_for_selector("h1")
                     tab.wait_for_timeout(1000)
                     before, every, start = cpu(server.pid), of_browser(), time.perf_counter()
-                    tab.locator(f'a[href="/form/{form}"]').first.click()
+                    tab.locator(f'a[href$="/form/{form}"]').first.click()
                     tab.wait_for_selector(".field")
                     seconds.append(time.perf_counter() - start)
                     used.append(cpu(server.pid) - before)

@@ -56,7 +56,7 @@ def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, s
     """The call in Python, and what the command line would refuse at once, in its words; one of them is empty."""
     try:
         return python_lines(words, command, out), ""
-    except (CycloptsError, InputError) as error:
+    except (CycloptsError, InputError, OSError) as error:
         return "", " ".join(refusal(error).split())
 
 

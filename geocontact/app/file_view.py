@@ -14,11 +14,8 @@ from nicegui.element import Element
 from geocontact.analyses.frame.file_content import MODEL, SURFACE, Content, markers_in_common
 from geocontact.app.elements import element, text
 from geocontact.app.fields import Field
-from geocontact.app.files import contents, write_page
+from geocontact.app.files import Known, contents, known_file, page_name, write_page
 from geocontact.app.form_view import FieldRow, FormView
-
-Known = tuple[Path, int, int]
-"""A file, its time of change and its size: the same content as before."""
 
 
 class FileView:
@@ -71,8 +68,8 @@ class FileView:
     def _files(self, one: Field) -> tuple[Known, ...]:
         """Files of a field that are there."""
         lines = [line.strip() for line in str(self.form.value(one)).splitlines() if line.strip()]
-        there = [path for line in lines if (path := self._folder / line).is_file()]
-        return tuple((path, (seen := path.stat()).st_mtime_ns, seen.st_size) for path in there)
+        found = (known_file(self._folder / line) for line in lines)
+        return tuple(each for each in found if each is not None)
 
     def _show(self, row: FieldRow, files: tuple[Known, ...]) -> None:
         if row.one.name not in self._places:
@@ -125,7 +122,7 @@ class FileView:
             if not chosen:
                 said.text = f"choose the {units[-1].label} first"
                 return
-            out = self._pages / f"{path.stem}_surface.html"
+            out = self._pages / page_name(path, chosen)
             said.text = "…"
             self._pages.mkdir(parents=True, exist_ok=True)
             said.text = str(await aside.io_bound(write_page, path, chosen, out))

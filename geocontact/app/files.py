@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+import stat
 import subprocess
 import sys
+import threading
 import warnings
 from collections.abc import Sequence
 from dataclasses import asdict
+from hashlib import sha256
 from pathlib import Path
 
 from geocontact.analyses.frame.file_content import Content, content_of
@@ -16,32 +20,87 @@ from geocontact.data.errors import InputError
 PATIENCE = 60.0
 """s that reading may last before the file is said to be too large to be looked at."""
 PAGE = "--page"
+_running: set[subprocess.Popen[str]] = set()
+_closed = threading.Event()
+
+Known = tuple[Path, int, int]
+"""A file, its time of change and its size: the same content as before."""
+
+
+def known_file(path: Path) -> Known | None:
+    """A regular file as it is now; None where there is none, or none that may be looked at."""
+    try:
+        seen = path.stat()
+    except (OSError, ValueError):  # a folder that is closed, a name that is too long or holds a zero
+        return None
+    return (path, seen.st_mtime_ns, seen.st_size) if stat.S_ISREG(seen.st_mode) else None
+
+
+def page_name(surface: Path, unit: str) -> str:
+    """File name of the page of a surface, another one for each path and unit."""
+    mark = sha256(os.fsencode(surface.absolute())).hexdigest()[:16]
+    return f"{surface.stem[:32]}_{unit}_{mark}.html"
 
 
 def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]:
     """Content of each file, in their order."""
     command = [sys.executable, "-P", "-m", __name__, *map(str, paths)]
-    try:
-        done = subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=patience, check=False
-        )
-        why = f"its reader ended with {done.returncode}"
-    except subprocess.TimeoutExpired:
-        done, why = None, f"reading lasts more than {patience:g} s"
-    if done is not None and done.returncode == 0:
-        return [Content(**each) for each in json.loads(done.stdout)]
-    if len(paths) > 1:  # by themselves, so that one costs the others nothing
+    code, printed = _ended(command, patience)
+    if code == 0:
+        return [Content(**each) for each in json.loads(printed)]
+    why = f"its reader ended with {code}" if code is not None else f"reading lasts more than {patience:g} s"
+    if len(paths) > 1 and not _closed.is_set():  # by themselves, so that one costs the others nothing
         return [content for path in paths for content in contents([path], patience)]
     return [Content(wrong=f"{path.name}: not looked at, {why}") for path in paths]
 
 
-def write_page(surface: Path, unit: str, out: Path) -> str:
+def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) -> str:
     """Write the page of a surface, which turns it in 3-D; why it cannot be written, "" where it is."""
     command = [sys.executable, "-P", "-m", __name__, PAGE, str(surface), unit, str(out)]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False)
-    if done.returncode:
-        return f"no page: the process that writes it ended with {done.returncode}"
-    return str(json.loads(done.stdout))
+    code, printed = _ended(command, patience)
+    if code is None:
+        return f"no page: writing it lasts more than {patience:g} s"
+    return f"no page: the process that writes it ended with {code}" if code else str(json.loads(printed))
+
+
+def close() -> None:
+    """End all that is being read or written, for good."""
+    from geocontact.app.runs import end
+
+    _closed.set()
+    for process in tuple(_running):
+        if process.poll() is None:
+            end(process)
+
+
+def _ended(command: Sequence[str], patience: float) -> tuple[int | None, str]:
+    """Exit code of a process and what it printed; None where it lasted too long, then it ends with all it started."""
+    from geocontact.app.runs import end  # which a process that reads does not need
+
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(
+        command,
+        stdin=quiet,
+        stdout=subprocess.PIPE,
+        stderr=quiet,
+        encoding="utf-8",
+        start_new_session=os.name != "nt",
+    ) as process:
+        _running.add(process)
+        try:
+            return (None, "") if _closed.is_set() else _answer(process, patience)
+        finally:
+            if process.poll() is None:
+                end(process)
+            _running.discard(process)
+
+
+def _answer(process: subprocess.Popen[str], patience: float) -> tuple[int | None, str]:
+    try:
+        printed, _ = process.communicate(timeout=patience)
+    except subprocess.TimeoutExpired:
+        return None, ""
+    return process.returncode, printed
 
 
 def _page(surface: str, unit: str, out: str) -> str:

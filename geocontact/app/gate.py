@@ -4,8 +4,9 @@ The address holds a token. Its first visitor gets a cookie in exchange, and the 
 pages, static files and websockets without the cookie, a Host that is not this address (a name that somebody else's
 server resolves to 127.0.0.1), an Origin of another page. Cookies know no ports: that of the window is for the path
 below which all its pages lie, a secret as well, so a server at another port gets neither. Results have an address of
-their own, not to be guessed, without the cookie, which pages in a sandbox do not send for their links. Written for
-ASGI 3.0, in front of the whole application.
+their own, not to be guessed, without the cookie, which pages in a sandbox do not send for their links; it lies beside
+the secret path, so that no answer to a request for it knows that path. Written for ASGI 3.0, in front of the whole
+application.
 """
 
 from __future__ import annotations
@@ -13,9 +14,8 @@ from __future__ import annotations
 import hmac
 import secrets
 from collections.abc import Awaitable, Callable, MutableMapping
-from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, quote
+from urllib.parse import parse_qs
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
@@ -80,10 +80,8 @@ class Gate:
         headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
         if not self._is_here(headers):
             await _refuse(scope, receive, send)
-        elif scope["path"].startswith(self._home) and self._known(headers.get("cookie", "")):
+        elif _of_results(scope) or (scope["path"].startswith(self._home) and self._known(headers.get("cookie", ""))):
             await self.app(scope, receive, self._with_policy(send))
-        elif scope["type"] == "http" and scope["method"] in ("GET", "HEAD") and scope["path"].startswith(RESULT):
-            await self.app(self._at_home(scope), receive, self._with_policy(send))
         elif scope["type"] == "http" and self._exchanged(scope):
             cookie = f"{self._cookie}={self._secret}; Path={self._home}; HttpOnly; SameSite=Strict"
             head = [(b"content-type", b"text/html"), (b"set-cookie", cookie.encode()), (b"cache-control", b"no-store")]
@@ -97,11 +95,10 @@ class Gate:
         return headers.get("host") == self._here and origin in ("", f"http://{self._here}")
 
     def _known(self, header: str) -> bool:
-        try:
-            found = SimpleCookie(header).get(self._cookie)
-        except CookieError:
-            return False
-        return found is not None and hmac.compare_digest(found.value.encode(), self._secret.encode())
+        """Whether one of the cookies is the secret: others may have its name, or be no pair."""
+        pairs = [each.strip().partition("=") for each in header.split(";")]
+        given = [value for name, _, value in pairs if name == self._cookie]
+        return any(hmac.compare_digest(value.encode(), self._secret.encode()) for value in given)
 
     def _exchanged(self, scope: Scope) -> bool:
         """Whether the request brings the token, which is void from now on."""
@@ -111,11 +108,6 @@ class Gate:
             return False
         self._token = None
         return True
-
-    def _at_home(self, scope: Scope) -> Scope:
-        """The same request below the path of the pages."""
-        path = self._home + scope["path"].removeprefix("/")
-        return {**scope, "path": path, "raw_path": quote(path).encode()}
 
     def _with_policy(self, send: Send) -> Send:
         """Answers with the policy of contents, that of the window where a page has none of its own."""
@@ -129,6 +121,10 @@ class Gate:
             await send(message)
 
         return sent
+
+
+def _of_results(scope: Scope) -> bool:
+    return scope["type"] == "http" and scope["method"] in ("GET", "HEAD") and str(scope["path"]).startswith(RESULT)
 
 
 async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:

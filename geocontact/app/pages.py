@@ -7,7 +7,7 @@ from hmac import compare_digest
 from itertools import count
 from pathlib import Path
 
-from fastapi import HTTPException, Request
+from fastapi import FastAPI, HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse
 from nicegui import app as site
 from nicegui import ui
@@ -17,7 +17,7 @@ from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
 from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form
-from geocontact.app.gate import secret
+from geocontact.app.gate import RESULT, secret
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import Workplace
 from geocontact.cli.command import summary
@@ -30,7 +30,7 @@ SANDBOX = (
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
 )
-"""Pages of results run their own scripts, but belong to no origin and load nothing: they reach no server."""
+"""Pages of results run their own scripts, but belong to no origin and load nothing; in a tab they can lead away."""
 
 
 class Shared:
@@ -98,8 +98,8 @@ class Shared:
         raise HTTPException(404)
 
 
-def add_pages(queue: Queue) -> None:
-    """Declare all pages and addresses."""
+def add_pages(queue: Queue, outside: FastAPI) -> None:
+    """Declare all pages and addresses; those of results at the application around the pages, without their path."""
     shared = Shared(queue)
     for run in reversed(earlier_runs(queue.folder)):
         queue.remember(run)
@@ -108,7 +108,7 @@ def add_pages(queue: Queue) -> None:
     async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
         return PlainTextResponse(await shared.take(key, name, request))
 
-    @site.get("/result/{key}/{name:path}")
+    @outside.get(RESULT + "{key}/{name:path}")
     def _result(key: str, name: str) -> FileResponse:
         return FileResponse(shared.file(key, name), headers={"content-security-policy": SANDBOX})
 

@@ -169,7 +169,7 @@ class Queue:
             process = run.process
             self._changed.notify_all()
         if process is not None:
-            _end(process)
+            end(process)
             _remove_drafts(run)
         run.ended = time.monotonic()
 
@@ -247,7 +247,7 @@ def _each_line(stream: IO[str], take: Callable[[str], None]) -> None:
                 take(line.rstrip())
 
 
-def _end(process: subprocess.Popen[str]) -> None:
+def end(process: subprocess.Popen[str]) -> None:
     """Ask a process to end, which removes what it had begun to write; then end all that it started."""
     if sys.platform == "win32":
         taskkill = shutil.which("taskkill") or "taskkill"

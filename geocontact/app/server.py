@@ -14,6 +14,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from geocontact.app import files
 from geocontact.app.gate import HOST, Application, Gate, secret
 from geocontact.app.runs import Queue
 from geocontact.data.errors import InputError
@@ -44,7 +45,7 @@ def serve(folder: Path, port: int, opens: bool, say: Callable[[str], None]) -> N
         application = _application(queue, home)
         import uvicorn  # comes with nicegui, whose absence is said before
 
-        with _listening(port) as here, tempfile.TemporaryDirectory(prefix="geocontact-app-") as private:
+        with _listening(port) as here, _private(folder) as private:
             gate = Gate(application, here.getsockname()[1], home)
             config = uvicorn.Config(
                 gate,
@@ -59,7 +60,7 @@ def serve(folder: Path, port: int, opens: bool, say: Callable[[str], None]) -> N
             stopped_by.append(server)
             say(gate.address)
             if opens:
-                webbrowser.open(_door(Path(private), gate.address).as_uri())
+                webbrowser.open(_door(private, gate.address).as_uri())
             server.run(sockets=[here])
 
 
@@ -89,6 +90,7 @@ def _ended_by_signals(queue: Queue) -> Iterator[list[Any]]:
         for each in known:
             signal.signal(each, signal.SIG_IGN)  # ending the runs is not to be interrupted
         queue.close()
+        files.close()
         for each in known:
             signal.signal(each, before[each])
     if code:
@@ -105,7 +107,7 @@ def _application(queue: Queue, home: str) -> Application:
     from geocontact.app.pages import add_pages
 
     application = fastapi.FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
-    add_pages(queue)
+    add_pages(queue, application)
     ui.run_with(
         application,
         mount_path=home,
@@ -139,11 +141,18 @@ def _listening(port: int) -> socket.socket:
     return here
 
 
-def _door(private: Path, address: str) -> Path:
-    """A page that leads to the address, which others would see among the words of the browser's process.
+@contextmanager
+def _private(folder: Path) -> Iterator[Path]:
+    """A folder below that of the results, for its owner only, as `tempfile` makes it; removed at the end.
 
-    The folder is for its owner only, as `tempfile` makes it.
+    A browser that is a snap sees neither /tmp nor what is hidden.
     """
+    with tempfile.TemporaryDirectory(prefix="geocontact-app-", dir=folder) as private:
+        yield Path(private)
+
+
+def _door(private: Path, address: str) -> Path:
+    """A page that leads to the address, which others would see among the words of the browser's process."""
     page = private / "open.html"
     refresh = f'<meta http-equiv="refresh" content="0;url={escape(address)}">'
     page.write_text(f'<!doctype html><meta charset="utf-8">{refresh}<title>{TITLE}</title>\n', encoding="utf-8")

@@ -59,7 +59,10 @@ def _toml(one: Field, form: Form, folder: Path) -> str:
 
 def _absolute(text: str, folder: Path) -> str:
     """A path that holds wherever the description lies; what is no file here stays as it is typed."""
-    return (folder / text).as_posix() if (folder / text).exists() else text
+    try:
+        return (folder / text).as_posix() if (folder / text).exists() else text
+    except OSError:
+        return text
 
 
 def _number(text: str) -> str:

@@ -99,15 +99,17 @@ def run(tokens: Sequence[str], debug: bool = False) -> int:
         return FAILURE
     except OSError as error:
         stays = f"; {what_stays()}" if error.errno in NO_ROOM else ""
-        return _fail(f"{error.filename or 'file system'}: {error.strerror or error}{stays}", FAILURE, debug)
+        return _fail(f"{refusal(error)}{stays}", FAILURE, debug)
     except MemoryError:
         return _fail("not enough memory; decimate the meshes or evaluate fewer frames", FAILURE, debug)
     except Exception as error:  # the last line of defence: one line for the user, --debug for us
         return _fail(f"{type(error).__name__}: {error} (run again with --debug for the details)", FAILURE, debug)
 
 
-def refusal(error: CycloptsError | InputError) -> str:
-    """What is wrong with the words of a call or with its input, in one line."""
+def refusal(error: CycloptsError | InputError | OSError) -> str:
+    """What is wrong with the words of a call, with its input or with the file system, in one line."""
+    if isinstance(error, OSError):
+        return f"{error.filename or 'file system'}: {error.strerror or error}"
     if isinstance(error, MissingArgumentError):
         name = str(error.argument.name) if error.argument else "an argument"
         unit = "mesh files carry no unit; pass --unit mm, cm, m or in"

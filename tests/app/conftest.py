@@ -26,6 +26,7 @@ class Window:
     context: BrowserContext
     home: str
     folder: Path
+    start: Path
     used: str
     requests: list[str] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
@@ -41,25 +42,25 @@ class Window:
 
 
 @pytest.fixture(scope="session")
-def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path]]:
-    """Address and folder of a window that is served."""
-    folder = tmp_path_factory.mktemp("window")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path, Path]]:
+    """Address and folder of a window that is served, and where it was started."""
+    folder, start = tmp_path_factory.mktemp("window"), tmp_path_factory.mktemp("start")
     command = [sys.executable, "-c", ENTRY, "app", "--no-browser", "--out", str(folder)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=start) as process:
         assert process.stdout is not None and process.stderr is not None
-        yield process.stdout.readline().strip(), folder
+        yield process.stdout.readline().strip(), folder, start
         process.terminate()
         complaints = process.stderr.read()
     assert "Traceback" not in complaints, complaints
 
 
 @pytest.fixture(scope="session")
-def window(browser: Browser, served: tuple[str, Path]) -> Iterator[Window]:
+def window(browser: Browser, served: tuple[str, Path, Path]) -> Iterator[Window]:
     """Entered."""
-    address, folder = served
+    address, folder, start = served
     context = browser.new_context(**DESKTOP)
     context.grant_permissions(["clipboard-read", "clipboard-write"])
-    found = Window(context, address.partition("/?")[0], folder, address)
+    found = Window(context, address.partition("/?")[0], folder, start, address)
     tab = context.new_page()
     tab.on("request", lambda request: found.requests.append(request.url))
     tab.goto(address)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from geocontact.analyses.frame.file_content import Content, content_of, markers_in_common
-from geocontact.app.files import contents, write_page
+from geocontact.app.files import contents, known_file, page_name, write_page
 from geocontact.cli.demo import sample_folder
+from tests.step_files import box
 from tests.trial_checks.as_c3d import write_c3d
 
 
@@ -95,6 +98,41 @@ def test_the_page_of_a_surface(tmp_path: Path) -> None:
     assert write_page(cup, "mm", tmp_path / "cup.html") == ""
     assert "coordinates in mm" in (tmp_path / "cup.html").read_text("utf-8")
     assert "too large" in write_page(cup, "m", tmp_path / "other.html") and not (tmp_path / "other.html").exists()
+
+
+def test_pages_of_surfaces_have_a_name_each(tmp_path: Path) -> None:
+    names = [page_name(tmp_path / place, unit) for place in ("a/m.stl", "b/m.stl", "a/m.obj") for unit in ("mm", "m")]
+    assert len(set(names)) == 6 and page_name(tmp_path / "a" / "m.stl", "mm") == names[0]
+    assert len(page_name(tmp_path / ("x" * 250 + ".stl"), "mm")) < 200
+
+
+@pytest.mark.skipif(os.name == "nt", reason="groups of processes of POSIX")
+def test_what_lasts_too_long_ends_with_all_that_it_started(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program, cup = tmp_path / "slow", sample_folder() / "cup_r24.stl"
+    program.write_text(f"#!/bin/sh\nsleep 300 &\necho $! >> {tmp_path}/started\nwait\n")
+    program.chmod(0o700)
+    monkeypatch.setattr("sys.executable", str(program))
+    assert "more than 2 s" in contents([cup], patience=2.0)[0].wrong
+    assert "more than 2 s" in write_page(cup, "mm", tmp_path / "cup.html", patience=2.0)
+    found = (tmp_path / "started").read_text().split()
+    states = subprocess.run(["ps", "-o", "stat=", "-p", ",".join(found)], capture_output=True, text=True).stdout
+    assert len(found) == 2 and not [state for state in states.split() if not state.startswith("Z")]
+
+
+def test_what_is_no_file_or_cannot_be_asked_for_is_not_there(tmp_path: Path) -> None:
+    (tmp_path / "file").write_bytes(b"four")
+    found = known_file(tmp_path / "file")
+    assert found is not None and found[2] == 4
+    for name in ("gone", "x" * 5000, "file/below", "a\0b", "."):
+        assert known_file(tmp_path / name) is None, name
+
+
+@pytest.mark.skipif(importlib.util.find_spec("cascadio") is None, reason="the extra `step` is not installed")
+@pytest.mark.parametrize("unit", ["mm", "m"])
+def test_the_unit_that_a_file_states_is_the_one_that_is_offered(unit: str, tmp_path: Path) -> None:
+    file = tmp_path / "box.step"
+    file.write_text(box((1.0, 2.0, 3.0), unit))
+    assert content_of(file).units == [unit]
 
 
 def test_markers_in_common() -> None:

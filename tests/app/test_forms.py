@@ -258,6 +258,14 @@ def test_numbers_in_a_study_are_those_that_were_typed(text: str) -> None:
     assert value == expected
 
 
+def test_a_path_that_the_file_system_refuses_is_one_line(tmp_path: Path) -> None:
+    """A name of 5000 letters, with which the command line ends in the same words."""
+    form = Form("ik", {"model": "leg.osim", "markers": "x" * 5000})
+    lines, wrong = calls.checked(form.words("out"), "ik", "out")
+    assert lines == "" and "File name too long" in wrong and "Traceback" not in wrong
+    assert f'"{"x" * 5000}"' in study_of(form, tmp_path)
+
+
 def test_a_study_that_was_edited_stays(tmp_path: Path) -> None:
     file = tmp_path / "new" / "area-1-study.toml"
     assert written_study(file, "a = 1\n") == written_study(file, "a = 1\n") == file

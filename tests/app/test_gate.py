@@ -132,6 +132,17 @@ def test_a_cookie_is_worth_nothing_without_the_path() -> None:
     assert head[b"referrer-policy"] == b"no-referrer", "nobody hears the secret from a link"
 
 
+@pytest.mark.parametrize(
+    "others", ["{name}=old; {own}", "{own}; {name}=old", "alone; {own}", "a b;;{own};=", "x={own}"]
+)
+def test_cookies_of_others_beside_it(others: str) -> None:
+    """An older one of the same name, and what is no pair, take nothing away; within a value it counts for nothing."""
+    gate = Gate(behind, PORT, HOME)
+    own = entered(gate)
+    answer = asked(gate, cookie=others.format(name=own.partition("=")[0], own=own))
+    assert refused(answer) == others.startswith("x=")
+
+
 def test_results_need_no_cookie_but_this_host_and_keep_their_policy() -> None:
     gate = Gate(behind, PORT, HOME)
     answer = asked(gate, "/result/key/1/report.html")

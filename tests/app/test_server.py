@@ -7,6 +7,7 @@ import os
 import re
 import signal
 import socket
+import stat
 import subprocess
 import sys
 import time
@@ -65,10 +66,12 @@ def running(process: int) -> bool:
 def test_it_ends_with_its_runs_and_its_folder(how: str, code: int, tmp_path: Path) -> None:
     """A form whose sample reads results of another one has begun that run."""
     process, address, port = started(tmp_path)
+    results = tmp_path / "results"
     with process:
         cookie, entrance = got(port, address.partition(str(port))[2])
         home = re.search(r"url=(/[^\"]+/)", entrance)
-        assert home is not None and list(tmp_path.glob("geocontact-app-*"))
+        assert home is not None and list(results.glob("geocontact-app-*"))
+        assert [stat.S_IMODE(each.stat().st_mode) for each in results.glob("geocontact-app-*")] == [0o700]
         got(port, f"{home[1]}form/shoulder.compare?sample=1", Cookie=cookie)
         end = time.monotonic() + PATIENCE
         while not (runs := children(process.pid)):
@@ -78,7 +81,27 @@ def test_it_ends_with_its_runs_and_its_folder(how: str, code: int, tmp_path: Pat
         assert process.wait(PATIENCE) == code
         said = process.stderr.read() if process.stderr is not None else ""
     assert not any(map(running, runs)) and "nothing was written" not in said and "Traceback" not in said, said
-    assert not list(tmp_path.glob("geocontact-app-*")) and not list(tmp_path.rglob(".geocontact-*"))
+    assert not list(results.glob("geocontact-app-*")) and not list(tmp_path.rglob(".geocontact-*"))
+
+
+def test_no_answer_without_the_cookie_names_the_path_of_the_pages(tmp_path: Path) -> None:
+    process, address, port = started(tmp_path)
+    leaks = []
+    with process:
+        cookie, entrance = got(port, address.partition(str(port))[2])
+        found = re.search(r"url=/([^\"]+)/", entrance)
+        assert found is not None and got(port, f"/{found[1]}/", Cookie=cookie)[1]
+        for path in ("", "/", "/x", "/x/", "/x/y", "/x/y/", "/../form/area", "//", "/%2e%2e/", "/x%2fy"):
+            for method in ("GET", "HEAD", "POST", "OPTIONS"):
+                connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
+                connection.request(method, f"/result{path}")
+                answer = connection.getresponse()
+                said = f"{answer.headers}{answer.read().decode()}"
+                connection.close()
+                if found[1] in said or answer.status < 300:
+                    leaks.append((method, path, said))
+        process.terminate()
+    assert not leaks
 
 
 def test_a_port_that_is_taken_is_said() -> None:

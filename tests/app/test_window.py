@@ -247,10 +247,12 @@ def test_a_form_takes_the_place_of_the_start_page(window: Window) -> None:
     tab.evaluate("window.mark = 1")
     tab.get_by_role("link", name="try the sample of elbow design").click()
     tab.wait_for_selector(".field")
-    until(tab, "location.pathname + location.search === '/form/elbow.design?sample=1'", 20.0)
+    until(tab, f"location.href === '{window.home}/form/elbow.design?sample=1'", 20.0)
     assert tab.title() == "elbow design – geocontact" and tab.evaluate("window.mark") == 1
     assert tab.evaluate("document.activeElement.textContent") == "elbow design"
     assert tab.locator('[name="limit"]').input_value() == "5" and tab.locator(".card").count() == 0
+    tab.reload()
+    tab.wait_for_selector(".field")
     tab.go_back()
     tab.wait_for_selector(".card")
     assert tab.title() == "geocontact" and tab.locator(".field").count() == 0
@@ -344,6 +346,19 @@ def test_a_surface_is_looked_at_and_its_unit_offered_not_taken(window: Window) -
     assert "coordinates in mm" in frame.locator("body").inner_text(timeout=60_000)
     tab.set_viewport_size({"width": 390, "height": 844})
     assert tab.evaluate("document.documentElement.scrollWidth") <= 390
+    tab.close()
+
+
+def test_a_relative_path_starts_where_the_window_does(window: Window) -> None:
+    """Another file of that name in the folder for results is not looked at."""
+    for folder, name in ((window.start, "cup_r24.stl"), (window.folder, "femoral_component_right_coarse.stl")):
+        (folder / "same.stl").write_bytes((sample_folder() / name).read_bytes())
+    tab = window.tab("form/fit")
+    tab.locator('[name="mesh"]').fill("same.stl")
+    said = "document.querySelector('.field:has([name=mesh]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes('triangles')", 60.0)
+    size = (window.start / "same.stl").stat().st_size
+    assert f"{(size - 84) // 50} triangles" in str(tab.evaluate(said))
     tab.close()
 
 

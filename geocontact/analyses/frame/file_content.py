@@ -33,7 +33,7 @@ class Content:
     wrong
         Why its reader refuses it.
     units
-        Units of length that would make the size of a surface usual, the commonest first; empty where nothing is open.
+        Unit of length that a surface states; else those that would make its size usual, the commonest first.
     markers
         Names of its markers: of a recording or of a model.
     """
@@ -104,7 +104,8 @@ def _surface(path: Path, found: Content) -> None:
     sides = " × ".join(f"{side:.4g}" for side in high - low)
     found.facts = [_counted(faces, "triangle")]
     if reader is read_step:
-        found.facts.append(f"{sides} {unit_of_step(data, path.name)}, the unit that the file states")
+        found.units = [unit_of_step(data, path.name)]
+        found.facts.append(f"{sides} {found.units[0]}, the unit that the file states")
         return
     found.facts.append(f"{sides} in the file's own unit, which it does not state")
     diagonal = float(np.linalg.norm(high - low))
@@ -239,10 +240,6 @@ def _text(path: Path, found: Content) -> None:
             return
     except InputError:
         pass  # no text: nothing that is known here
-    if path.is_dir():
-        files = sorted(each.name for each in path.iterdir())
-        found.kind, found.facts = "folder", [f"{_counted(files, 'entry', 'entries')}: {_listed(files)}"]
-        return
     found.facts = [f"{path.stat().st_size / 1e3:.3g} kB; its content is read when the analysis runs"]
 
 
