@@ -19,7 +19,7 @@ from geocontact.data.errors import InputError
 
 PATIENCE = 60.0
 """s that reading may last before the file is said to be too large to be looked at."""
-PAGE = "--page"
+PAGE = "page"
 _running: set[subprocess.Popen[str]] = set()
 _closed = threading.Event()
 

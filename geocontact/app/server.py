@@ -137,7 +137,7 @@ def _listening(port: int) -> socket.socket:
     except OSError as error:
         here.close()
         remedy = "choose another one, or leave it out for one that is free"
-        raise InputError("", "--port", f"{port} cannot be used ({error.strerror})", remedy) from error
+        raise InputError("", "port", f"{port} cannot be used ({error.strerror})", remedy) from error
     return here
 
 

@@ -117,7 +117,7 @@ def library_of(source: str) -> ctypes.CDLL | None:
 
 @cache
 def _version(program: str) -> str:
-    return subprocess.run([program, "--version"], check=True, capture_output=True, text=True, timeout=20.0).stdout
+    return subprocess.run([program, "-v"], check=True, capture_output=True, text=True, timeout=20.0).stderr
 
 
 def _built(program: str, source: str) -> bytes | None:

@@ -108,7 +108,7 @@ def test_a_port_that_is_taken_is_said() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
-        with pytest.raises(InputError, match=r"--port.*cannot be used"):
+        with pytest.raises(InputError, match=r"port: .*cannot be used"):
             _listening(other.getsockname()[1])
 
 
