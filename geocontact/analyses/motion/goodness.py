@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -32,6 +32,7 @@ LONGEST = 1.0
 """m between a joint and the markers of its segment; no segment is that long."""
 
 
+@runtime_checkable
 class FittedSegments(Protocol):
     """What was fitted in place of markers."""
 
