@@ -22,7 +22,7 @@ from geocontact.io.recordings.load_cells import read_cycle_table, read_load_cell
 from geocontact.io.recordings.spheres import read_spheres
 from geocontact.io.text.column_names import ColumnNames
 from geocontact.io.text.plain_table import open_plain
-from geocontact.io.text.side_table import read_side_table
+from geocontact.io.text.side_table import LARGEST_RESULT, read_side_table
 from geocontact.io.text.tables import read_table
 
 TABLES: dict[str, tuple[Callable[[Path], object], str]] = {
@@ -207,7 +207,7 @@ def test_results_of_an_hour_at_a_hundred_hertz_are_read(tmp_path: Path) -> None:
     file = tmp_path / "arm.csv"
     head = ",".join(["time [s]", *(f"c{k} [deg]" for k in range(10)), "zone"])
     file.write_text(head + "\n" + "".join(f"{0.01 * k:.2f},{row},a\n" for k in range(90_000)), "utf-8")
-    table = read_side_table(file)
+    table = read_side_table(file, (), LARGEST_RESULT)
     assert file.stat().st_size > 11e6 and table.shape == (90_000, 12)
     assert table["time [s]"].iloc[-1] == pytest.approx(899.99, abs=1e-9)
     assert table["c9 [rad]"].iloc[-1] == pytest.approx(np.deg2rad(0.123456789), rel=1e-15)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from geocontact.geometry.surface_quadrature import surface_quadrature, thickness
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.loads import settling as energy_balance_room
 from geocontact.loads import settling_potential
-from geocontact.loads.foundation import LAWS, Layer, layer_loads
+from geocontact.loads.foundation import LAWS, FoundationState, Layer, layer_loads
 from geocontact.loads.settling import energy_balance, equilibrium, not_held, settle_along
 from geocontact.loads.settling_potential import NAMES, AxialLoad, Bed, coordinates_of, placed_at, poses_of, total_at
 from geocontact.loads.start_pose import lowest_places, pressing
@@ -162,7 +163,9 @@ def test_coordinates_are_poses_and_back() -> None:
 def test_the_state_of_the_last_place_is_kept_and_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
     """Searches begin where the one before ended; a place that differs in one digit is computed."""
     layer, places = bed(slab(), ball(4), 2e-3), []
-    monkeypatch.setattr(settling_potential, "foundation_state", lambda *given: places.append(given) or object())
+    monkeypatch.setattr(
+        settling_potential, "foundation_state", lambda *given: places.append(given) or Mock(FoundationState)
+    )
     here, there = (placed_at(np.array([0.0, R - depth, 0.0, 0.0, 0.0, 0.0]), layer.point) for depth in (1e-4, 1.1e-4))
     first = layer.state(here)
     assert layer.state(here) is first and len(places) == 1

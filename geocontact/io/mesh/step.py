@@ -118,7 +118,7 @@ def _length(entity: bytes) -> str:
 
 def _welded(
     vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]
-) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "k 3"]]:
+) -> tuple[Float[np.ndarray, "a 3"], Int[np.ndarray, "b 3"]]:
     """Corners of faces that were cut apart made one, with all vertices, and faces that have three of them."""
     pairs = cKDTree(vertices).query_pairs(SAME * float(np.ptp(vertices, axis=0).max()), output_type="ndarray")
     linked = coo_array((np.ones(len(pairs), np.int8), pairs.T), shape=(len(vertices), len(vertices)))
