@@ -376,6 +376,9 @@ closed = true
 name = "insert"
 mesh = "a.stl"
 segment = "tibia_r"
+[[bodies]]
+name = "shank"
+mesh = "a.stl"
 [[pairs]]
 name = "medial"
 moving = "femur"
@@ -390,7 +393,7 @@ piece = { value = 1, unit = "mm" }
 foundation = "logarithmic"
 [[free]]
 body = "femur"
-axes = "insert"
+axes = "shank"
 settles = ["tx", "ty", "tz", "rx", "ry", "rz"]
 fx = { value = 10, unit = "N" }
 fy = { value = -2, unit = "kN" }
