@@ -27,7 +27,7 @@ BEYOND = (
     "after an interval [-]",
     "after 0.2 s [-]",
     "open loop [-]",
-    "open loop expected [-]",
+    "open loop bound [-]",
     "growth rate [1/s]",
     "intervals [-]",
     "shortest interval [s]",
@@ -135,7 +135,7 @@ def certificate_rows(phase: str, names: Sequence[str], motions: Sequence[JudgedM
         told |= {"residual [N]": float(seen.force.max()), "residual [N m]": float(seen.moment.max())}
         sizes: tuple[float, ...] = (np.nan,) * len(BEYOND)
         if c is not None:
-            sizes = c.interval, c.window, c.open_loop, c.expected, c.growth_rate, c.intervals, c.shortest
+            sizes = c.interval, c.window, c.open_loop, c.bound, c.growth_rate, c.intervals, c.shortest
         rows.append(told | dict(zip(BEYOND, sizes, strict=True)))
     return rows
 
