@@ -24,6 +24,7 @@ from geocontact.analyses.area.page_sections import (
     uncertainty_curves,
 )
 from geocontact.analyses.area.pressure_page import Pressures, pressure_sections, pressure_words
+from geocontact.analyses.area.wear import wear_facts, wear_words
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.evolution import MM, MM2, AreaEvolution
@@ -35,6 +36,7 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import AreaUncertainty
 from geocontact.geometry.surface import Surface
+from geocontact.loads.wear import Worn
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 
 HEADER = ("body", "vertices", "faces", "edge, median [mm]", "edge, longest [mm]", "size [mm]", "closed")
@@ -207,6 +209,7 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
     largest, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
 
     lines = [] if told.pressures is None else pressure.facts(told.pressures, course)
+    lines += [] if told.wear is None else wear_facts(told.wear)
     lines.append(("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² at {course.at(largest)}"))
     if told.pressures is None:
         span = f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"
@@ -267,6 +270,7 @@ def thinned_page(
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
     published: pd.DataFrame | None = None,
+    wear: Worn | None = None,
 ) -> Thinned:
     """The page of one contact-area analysis, of as many frames as its file holds.
 
@@ -290,13 +294,15 @@ def thinned_page(
         How alike the surfaces are curved in contact; read out in each frame.
     published
         Published areas beside these.
+    wear
+        Wear of FIXED by these pressures: a second map.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
 
     def of(most: int) -> Page:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        further = pressures, compared, uncertainty, congruence, published
+        further = pressures, compared, uncertainty, congruence, published, wear
         told = Told(moving, fixed, motion, settings, evolution, maps, shown, *further)
         return contact_page(told, title)
 
@@ -324,6 +330,7 @@ def contact_page(told: Told, title: str) -> Page:
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
     distance = distance_curves(e).at(frames)
     foundation = [] if pressures is None else [pressure_words(pressures)]
+    worn = [] if told.wear is None else [wear_words(told.wear)]
 
     def sections(k: int) -> list[Section]:
         words = reviewers_words(told.moving, told.fixed, told.settings, e, k, len(frames), pressures is not None)
@@ -340,6 +347,7 @@ def contact_page(told: Told, title: str) -> Page:
             *after,
             *words[:2],
             *foundation,
+            *worn,
             *words[2:],
         ]
 
