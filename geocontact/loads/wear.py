@@ -162,7 +162,7 @@ class Worn:
     closing
         Work of the way from the last pose back to the first [J], per coefficient of friction, beside `total_work`.
     coarser
-        Change of the work where every second frame is left out, as a share of it [-].
+        Change of the work where every second frame is left out: that of each piece, as a share of all [-].
     """
 
     pieces: SurfaceQuadrature
@@ -220,7 +220,7 @@ class Wearing:
     def after(self, factor: WearFactor, cycles: float) -> Worn:
         """The wear of so many cycles of the frames taken in."""
         all_, area = self._all, self._all.pieces.area
-        fine, coarse = float(self._halfway @ area), float(self._second.work @ area)
-        coarser = abs(coarse - fine) / fine if fine > 0.0 else 0.0
+        fine = float(self._halfway @ area)
+        coarser = float(np.abs(self._second.work - self._halfway) @ area) / fine if fine > 0.0 else 0.0
         ratio = all_.ratio
         return Worn(all_.pieces, cycles, all_.work, ratio, factor.at(ratio), float(all_.closing @ area), coarser)

@@ -211,6 +211,7 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
     lines = [] if told.pressures is None else pressure.facts(told.pressures, course)
     lines += [] if told.wear is None else wear_facts(told.wear)
     lines.append(("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² at {course.at(largest)}"))
+    lines += _coverage(told, k)
     if told.pressures is None:
         span = f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"
         lines.append(("Range over the motion", span))
@@ -219,6 +220,18 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
     lines += _uncertain_facts(told, k)
     word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
     lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm at {course.at(nearest)}"))
+    return lines
+
+
+def _coverage(told: Told, k: int) -> list[tuple[str, str]]:
+    """Largest share of each region that is in contact."""
+    e, course = told.evolution, told.motion.course
+    lines = []
+    for body, side in (("fixed", e.fixed), ("moving", e.moving)):
+        if side.coverage is not None and side.region is not None:
+            most = int(np.argmax(side.coverage[:, k]))
+            share = f"{side.coverage[most, k]:.1%} of {side.region * MM2:.0f} mm² at {course.at(most)}"
+            lines.append((f"Largest coverage of the {body} body's region", share))
     return lines
 
 

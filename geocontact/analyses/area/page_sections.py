@@ -29,6 +29,8 @@ READ = (
     ("upper bound (these meshes)", "area_fixed_upper [mm^2]", 2),
     ("medial part", "area_fixed_medial [mm^2]", 2),
     ("lateral part", "area_fixed_lateral [mm^2]", 2),
+    ("coverage of the fixed body's region", "coverage_fixed [-]", 3),
+    ("coverage of the moving body's region", "coverage_moving [-]", 3),
     ("contact area on the moving body", "area_moving [mm^2]", 2),
     ("smallest distance", "min_distance [mm]", 3),
     ("penetration of the fixed body", "max_penetration_fixed [mm]", 3),
@@ -40,7 +42,7 @@ READ = (
     ("centroid z", "centroid_z [mm]", 2),
 )
 """Label, column and digits of what the page reads out in each frame, after the area of FIXED."""
-BESIDE_PRESSURES = ("min_distance [mm]", "max_penetration_fixed [mm]")
+BESIDE_PRESSURES = ("coverage_fixed [-]", "min_distance [mm]", "max_penetration_fixed [mm]")
 """Those of them that stay where pressures are read out."""
 MEASURED = {
     "area_fixed [mm^2]": "fixed body",

@@ -344,7 +344,12 @@ def _summarise(e: AreaEvolution, name: str) -> None:
             round(float(areas.max()), 3),
         ]
         label = f"{name}: " if name else ""
-        say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
+        said = f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2"
+        if e.fixed.coverage is not None and e.fixed.region is not None:
+            low, high = (float(end) for end in (e.fixed.coverage[:, k].min(), e.fixed.coverage[:, k].max()))
+            lines[f"coverage_fixed_at_{threshold * 1e3:g}_mm"] = [round(low, 6), round(high, 6)]
+            said += f", {low:.1%} … {high:.1%} of the {e.fixed.region * MM2:.1f} mm^2 of `region`"
+        say(said)
     note(name or "motion", lines)
 
 
