@@ -10,6 +10,7 @@ from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.frame.collector import add_input, note, reserve, say
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM, MM2
+from geocontact.data.plausible import BEARING
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.side_table import read_side_table
 from geocontact.loads.pressure_evolution import PressureEvolution
@@ -53,6 +54,7 @@ def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e
     label = f"{name}: " if name else ""
     if not found.total_work > 0.0:
         reserve(f"{label}nothing slides under pressure: there is no wear")
+    _doubt_pressure(e, label)
     _doubt_motion(found, label)
     _doubt_depth(found, e, label)
     _doubt_ratios(found, factor, label)
@@ -73,6 +75,17 @@ def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e
     )
     say(f"{label}{wear_sentence(found)}")
     return found
+
+
+def _doubt_pressure(e: PressureEvolution, label: str) -> None:
+    """A reservation where pressures are beyond those of bearings: wear is as wrong as they are."""
+    peak = max(load.peak for load in e.loads)
+    doubt = BEARING.doubt(peak) if peak > 0.0 else None
+    if doubt is not None:
+        reserve(
+            f"{label}wear follows the pressures: {doubt}; "
+            "poses that are known to less than the layer is pressed in do not say how hard: settle them under the load"
+        )
 
 
 FRAMES = 0.1
