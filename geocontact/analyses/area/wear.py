@@ -84,7 +84,7 @@ def _doubt_pressure(e: PressureEvolution, label: str) -> None:
     if doubt is not None:
         reserve(
             f"{label}wear follows the pressures: {doubt}; "
-            "poses that are known to less than the layer is pressed in do not say how hard: settle them under the load"
+            "check `modulus`, `thickness` and the poses, which should be those at rest under the load"
         )
 
 
