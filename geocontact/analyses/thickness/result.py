@@ -2,7 +2,10 @@
 
 >>> import geocontact as gc
 >>> result = gc.thickness("meshes/sphere_r20.stl", "meshes/sphere_r18.stl", unit="mm")
->>> print(result.sentences[0])
+>>> print(result.sentences[0].partition(":")[0], result.sentences[-1])
+thickness, along the normal 100.0% of 5015.8 mm^2 has a thickness along the normal
+>>> round(1e3 * result.nearest.mean(), 2)
+2.0
 """
 
 from __future__ import annotations
@@ -120,6 +123,9 @@ def read(o: ThicknessOptions) -> Layered:
 def run(given: Layered, o: ThicknessOptions) -> ThicknessResult:
     """Both measures at every face that counts."""
     found = thickness_map(given.outer, given.inner, o.most, given.faces)
+    if found.inside.all():
+        what = f"lies inside {given.inner.name} everywhere"
+        raise InputError(given.outer.name, "", what, "exchange OUTER and INNER, or check `place_inner`")
     if not np.isfinite(found.along).any() and not np.isfinite(found.nearest).any():
         what = f"{given.inner.name} is nowhere within {o.most * MM:g} mm of {given.outer.name}"
         raise InputError("", "`most`", what, "check unit and frames (`place_inner`), or give a larger one")
