@@ -4,7 +4,7 @@
 >>> result = gc.thickness("meshes/sphere_r20.stl", "meshes/sphere_r18.stl", unit="mm")
 >>> print(result.sentences[0].partition(":")[0], result.sentences[-1])
 thickness, along the normal 100.0% of 5015.8 mm^2 has a thickness along the normal
->>> round(1e3 * result.nearest.mean(), 2)
+>>> round(1e3 * float(result.nearest.mean()), 2)
 2.0
 """
 
