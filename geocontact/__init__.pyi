@@ -22,6 +22,7 @@ from geocontact.analyses.motion.inverse_kinematics.result import inverse_kinemat
 from geocontact.analyses.motion.scale.result import scale
 from geocontact.analyses.motion.virtual_markers.result import virtual_markers
 from geocontact.analyses.shape.result import fit_shape
+from geocontact.analyses.thickness.result import thickness
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.evolution import AreaEvolution
 from geocontact.data.motion import Motion
@@ -117,5 +118,6 @@ __all__ = [
     "sit_to_stand",
     "sweep",
     "system_of",
+    "thickness",
     "virtual_markers",
 ]

@@ -189,6 +189,7 @@ ENTRIES = (
     Entry("sit-to-stand coordinates", "sit_to_stand.coordinates", "StandingCoordinatesOptions", "result:coordinates"),
     Entry("sit-to-stand movements", "sit_to_stand.movements", "StandingMovementsOptions", "result:movements"),
     Entry("sit-to-stand device", "sit_to_stand.device", "StandingDeviceOptions", "result:device"),
+    Entry("thickness", "thickness", "ThicknessOptions", "result:thickness"),
 )
 """In the order in which a group lists its commands."""
 

@@ -57,6 +57,8 @@ class SideAreas:
         Area centroid in FIXED's frame [m]; NaN where the area is zero.
     negative
         Part on the negative side of the splitting plane [m^2].
+    region
+        Area of the faces that count, where these were chosen [m^2]; None where all count.
     """
 
     area: Float[np.ndarray, "t k"]
@@ -65,6 +67,12 @@ class SideAreas:
     error: Float[np.ndarray, "t k"]
     centroid: Float[np.ndarray, "t k 3"]
     negative: Float[np.ndarray, "t k"]
+    region: float | None = None
+
+    @property
+    def coverage(self) -> Float[np.ndarray, "t k"] | None:
+        """Share of the region that is in contact, such as of an articular surface [-]; None without a region."""
+        return None if self.region is None else self.area / self.region
 
 
 @dataclass(frozen=True)
@@ -156,4 +164,7 @@ class AreaEvolution:
         columns["area_moving_lower [mm^2]"] = self.moving.lower.ravel() * MM2
         columns["area_moving_upper [mm^2]"] = self.moving.upper.ravel() * MM2
         columns["area_moving_error [mm^2]"] = self.moving.error.ravel() * MM2
+        for name, side in (("fixed", self.fixed), ("moving", self.moving)):
+            if side.coverage is not None:
+                columns[f"coverage_{name} [-]"] = side.coverage.ravel()
         return pd.DataFrame(columns)

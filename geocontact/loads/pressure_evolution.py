@@ -135,6 +135,7 @@ def pressure_evolution(
     finer: Callable[[Faces], Layer],
     workers: int | None = None,
     step: Callable[[], None] = lambda: None,
+    each: Callable[[Pressed], None] = lambda found: None,
 ) -> PressureEvolution:
     """Load on an elastic layer in every frame of a motion.
 
@@ -155,6 +156,8 @@ def pressure_evolution(
         Threads; all cores unless stated. The figures do not depend on it.
     step
         Called after each frame.
+    each
+        Called with what is found of each frame, in their order: `loads.wear.Wearing` gathers so.
 
     Raises
     ------
@@ -167,6 +170,7 @@ def pressure_evolution(
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         for frame in pool.map(lambda r, t: pressed(layer, moving, r, t, skin), rotation, translation):
             found.add(frame)
+            each(frame)
             step()
     worst = found.heaviest
     again = pressed(finer(_around(fixed, found.maps[worst] > 0.0)), moving, rotation[worst], translation[worst], skin)

@@ -202,6 +202,10 @@ WRITTEN: Mapping[str, Mapping[str, Read]] = {
         "point": entry("fit.json", "point_mm", factor=MM),
         "rms": entry("fit.json", "rms_mm", factor=MM),
     },
+    "thickness": {
+        "along": column("thickness.csv", "along_normal [mm]", MM),
+        "nearest": column("thickness.csv", "nearest [mm]", MM),
+    },
     "functional_joint": {
         "point": entry("joint.json", "first", "point_mm", factor=MM),
         "rms": entry("joint.json", "apart_rms_mm", factor=MM),

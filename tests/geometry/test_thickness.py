@@ -1,111 +1,104 @@
-"""Thickness along the normal: closed forms, a loop over all faces as second opinion, rays through edges and holes."""
+"""Thickness between two surfaces: spheres in closed form, a wedge, windings, what has none."""
 
 from __future__ import annotations
-
-from functools import cache
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from geocontact.data.mesh import Mesh
 from geocontact.geometry.surface import Surface
-from geocontact.geometry.surface_quadrature import thickness_below
-from geocontact.io.mesh.meshes import read_mesh
-from tests.cli.calls import MESHES
-from tests.geometry.bodies import MM, cube, joined, moved, surface, turned
+from geocontact.geometry.thickness import ThicknessMap, thickness_map
+from meshes.simple_shapes import block, sphere
 
-BODIES = ("torus_r25_r8.stl", "cup_r24.stl", "tibial_insert_right_coarse.stl", "femoral_component_right_coarse.stl")
-
-
-@cache
-def sample(name: str) -> Surface:
-    mesh: Mesh = read_mesh(MESHES / name, "mm")
-    return Surface.of(mesh)
+MM = 1e-3
+R, SMALL = 20.0 * MM, 17.0 * MM
 
 
-def middles(body: Surface) -> np.ndarray:
-    return body.vertices[body.faces].mean(axis=1)
+def ball(radius: float, at: tuple[float, float, float] = (0.0, 0.0, 0.0), n: int = 30) -> Surface:
+    """A closed sphere of this radius [m] about a centre [m]."""
+    vertices, faces = sphere(1.0, n)
+    return Surface(radius * vertices + np.asarray(at), faces, f"ball {radius / MM:g}")
 
 
-def by_all_faces(body: Surface, point: np.ndarray, inwards: np.ndarray) -> float:
-    """Moeller and Trumbore on every face: the nearest crossing from inside to outside."""
-    a, b, c = np.moveaxis(body.vertices[body.faces], 1, 0)
-    one, two = b - a, c - a
-    across = np.cross(inwards, two)
-    det = np.einsum("ij,ij->i", one, across)
-    with np.errstate(all="ignore"):
-        s = point - a
-        u = np.einsum("ij,ij->i", s, across) / det
-        q = np.cross(s, one)
-        v = q @ inwards / det
-        t = np.einsum("ij,ij->i", two, q) / det
-        leaving = np.cross(one, two) @ inwards > 0.0
-        good = leaving & (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (t >= -1e-12)
-    return float(t[good].min(initial=np.inf))
+def mapped(outer: Surface, inner: Surface, most: float = 25.0 * MM, faces: np.ndarray | None = None) -> ThicknessMap:
+    return thickness_map(outer, inner, most, faces)
 
 
-def test_cube_is_as_thick_as_its_side() -> None:
-    body = surface(cube((3.0, -2.0, 40.0), (5.0, 7.0, 11.0)))
-    found = thickness_below(body, middles(body), body.face_normal)
-    side = 2.0 * np.abs(body.face_normal) @ np.array([5.0, 7.0, 11.0]) * MM
-    np.testing.assert_allclose(found, side, rtol=1e-12)
+def test_concentric_spheres_are_as_thick_as_their_radii_differ() -> None:
+    found = mapped(ball(R), ball(SMALL))
+    sag = 0.05 * MM  # of the facets of both
+    np.testing.assert_allclose(found.along, R - SMALL, atol=sag)
+    np.testing.assert_allclose(found.nearest, R - SMALL, atol=sag)
+    mean, sd = found.mean_sd(found.along)
+    assert mean == pytest.approx(R - SMALL, abs=sag) and sd < sag
+    assert found.covered == 1.0 and not found.inside.any() and not found.outwards
+    assert found.volume == pytest.approx(4.0 * np.pi * R**2 * (R - SMALL), rel=0.02)
 
 
-@pytest.mark.parametrize("name", BODIES)
-def test_every_face_agrees_with_a_loop_over_all_faces(name: str) -> None:
-    body = sample(name)
-    some = np.random.default_rng(3).choice(len(body.faces), 150, replace=False)
-    start, normal = middles(body)[some], body.face_normal[some]
-    expected = [by_all_faces(body, p, -n) for p, n in zip(start, normal, strict=True)]
-    np.testing.assert_allclose(thickness_below(body, start, normal), expected, rtol=1e-9, atol=1e-12)
-    assert np.isfinite(expected).all(), "closed bodies let no ray in that they do not let out"
+def test_eccentric_spheres_tell_both_measures_apart() -> None:
+    """Along the normal: the line from x through the outer centre meets the inner sphere; nearest: |x - c| - r."""
+    centre, small = np.array([8.0, 0.0, 0.0]) * MM, 10.0 * MM
+    found = mapped(ball(R), ball(small, tuple(centre)))
+    way = -found.point / np.linalg.norm(found.point, axis=1)[:, None]
+    start = R * -way
+    offset = start - centre
+    half = np.einsum("ni,ni->n", way, offset)
+    along = -half - np.sqrt(half**2 - np.einsum("ni,ni->n", offset, offset) + small**2)
+    nearest = np.linalg.norm(offset, axis=1) - small
+    np.testing.assert_allclose(found.along, along, atol=0.08 * MM)
+    np.testing.assert_allclose(found.nearest, nearest, atol=0.06 * MM)
+    assert (found.along >= found.nearest - 1e-9).all()
+    assert (along - nearest).max() > 2.0 * MM
+    assert found.nearest.min() == pytest.approx(2.0 * MM, abs=0.06 * MM)
+    assert found.nearest.max() == pytest.approx(18.0 * MM, abs=0.06 * MM)
 
 
-def test_rays_through_edges_and_corners_are_not_lost() -> None:
-    """Down the middle of a block of twelve faces: along the diagonals of two of them, and through corners."""
-    diagonal = np.array([[1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 0.0]])
-    normal = diagonal / np.linalg.norm(diagonal, axis=1, keepdims=True)
-    for shape in (np.eye(3), turned(30, 40, 50).as_matrix()):
-        tilted = surface(moved(cube((0.0, 0.0, 0.0), 10.0), Rotation.from_matrix(shape), np.zeros(3)))
-        found = thickness_below(tilted, np.zeros((5, 3)), normal @ shape.T)
-        np.testing.assert_allclose(found, 10.0 * MM * np.linalg.norm(diagonal, axis=1), rtol=1e-9)
+def wedge(tilt: float) -> tuple[Surface, Surface]:
+    """A square at y = 5 mm, and one below that is tilted about z [rad] through the origin."""
+    corners = np.array([[-5.0, 5.0, -5.0], [5.0, 5.0, -5.0], [5.0, 5.0, 5.0], [-5.0, 5.0, 5.0]]) * MM
+    faces = np.array([[0, 2, 1], [0, 3, 2]])  # normals along y
+    below = np.array([[-50.0, 0.0, -50.0], [50.0, 0.0, -50.0], [50.0, 0.0, 50.0], [-50.0, 0.0, 50.0]]) * MM
+    return Surface(corners, faces, "top"), Surface(Rotation.from_rotvec([0.0, 0.0, tilt]).apply(below), faces, "base")
 
 
-def test_rigid_motion_changes_nothing() -> None:
-    body = sample("tibial_insert_right_coarse.stl")
-    turn, shift = turned(20, -70, 130), np.array([0.4, -3.0, 1.5])
-    there = Surface(turn.apply(body.vertices) + shift, body.faces)
-    before = thickness_below(body, middles(body), body.face_normal)
-    after = thickness_below(there, middles(there), there.face_normal)
-    same = np.isclose(after, before, rtol=1e-9)
-    assert same.mean() > 0.999, "a ray that runs along an edge of the rim may take either side"
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_wedge_differs_by_the_cosine_and_windings_do_not_matter(turned: bool) -> None:
+    top, base = wedge(0.3)
+    if turned:
+        top, base = (Surface(each.vertices, each.faces[:, ::-1], each.name) for each in (top, base))
+    found = mapped(top, base)
+    height = 5.0 * MM - np.tan(0.3) * found.point[:, 0]
+    np.testing.assert_allclose(found.along, height, rtol=1e-9)
+    np.testing.assert_allclose(found.nearest, height * np.cos(0.3), rtol=1e-9)
+    assert found.outwards == turned
+    expected = np.average(height, weights=found.area)
+    assert found.volume == pytest.approx(expected * 100.0 * MM**2, rel=1e-9)
+    assert found.mean_sd(found.along)[0] == pytest.approx(expected, rel=1e-9)
 
 
-def test_inside_out_bodies_are_as_thick() -> None:
-    body = sample("torus_r25_r8.stl")
-    turned_over = Surface(body.vertices, body.faces[:, ::-1])
-    np.testing.assert_allclose(
-        thickness_below(turned_over, middles(turned_over), turned_over.face_normal),
-        thickness_below(body, middles(body), body.face_normal),
-        rtol=1e-12,
-    )
+def test_what_is_too_far_or_inside_has_no_thickness() -> None:
+    far = mapped(ball(R), ball(SMALL), most=2.0 * MM)
+    assert np.isnan(far.along).all() and np.isnan(far.nearest).all() and far.covered == 0.0 and far.volume == 0.0
+    assert np.isnan(far.quantiles(far.along, np.array([0.5]))).all() and np.isnan(far.mean_sd(far.along)).all()
+    crossing = mapped(ball(R), ball(SMALL, (8.0 * MM, 0.0, 0.0)))
+    beyond = np.linalg.norm(crossing.point - [8.0 * MM, 0.0, 0.0], axis=1) < SMALL
+    assert beyond.any() and (crossing.inside == beyond).mean() > 0.99
+    assert np.isnan(crossing.along[crossing.inside]).all() and np.isnan(crossing.nearest[crossing.inside]).all()
 
 
-def test_only_the_first_way_out_counts() -> None:
-    """Two plates above each other, and a sheet without an underside."""
-    pair = surface(joined(cube((0, 0, 0), (9.0, 1.0, 9.0)), cube((0, -20.0, 0), (9.0, 1.0, 9.0))))
-    top = np.array([[0.1, 1.0, 0.2]]) * MM
-    up = np.array([[0.0, 1.0, 0.0]])
-    np.testing.assert_allclose(thickness_below(pair, top, up), [2.0 * MM], rtol=1e-12)
-    assert thickness_below(pair, top, up, limit=1.9 * MM)[0] == np.inf
-    vertices, faces = cube((0, 0, 0), (9.0, 1.0, 9.0))
-    one, two = (vertices[faces][:, k] - vertices[faces][:, 0] for k in (1, 2))
-    lid = surface((vertices, faces[np.cross(one, two)[:, 1] >= 0.0]))
-    assert len(lid.faces) == 10 and np.isinf(thickness_below(lid, top, up)).all()
+def test_a_region_and_quantiles_weighted_with_area() -> None:
+    top, base = wedge(0.2)
+    found = mapped(top, base, faces=np.array([False, True]))
+    assert found.face.tolist() == [1] and found.area.sum() == pytest.approx(50.0 * MM**2)
+    with pytest.raises(ValueError, match="no face counts"):
+        mapped(top, base, faces=np.array([False, False]))
+    slab = Surface(*_scaled(block(10.0, 10.0, 4.0, 2)), "slab")
+    both = mapped(slab, ball(1.0 * MM, (0.0, -2.0 * MM, 0.0), 10))
+    values = np.where(both.point[:, 1] > -1.0 * MM, 1.0, 3.0)  # the top is less than half of the area
+    share = both.area[values == 1.0].sum() / both.area.sum()
+    low, high = both.quantiles(values, np.array([0.5 * share, 0.5 * (1.0 + share)]))
+    assert (low, high) == (1.0, 3.0)
 
 
-def test_points_that_are_no_numbers_are_refused() -> None:
-    body = sample("torus_r25_r8.stl")
-    with pytest.raises(ValueError, match="must be finite"):
-        thickness_below(body, np.full((1, 3), np.nan), np.array([[0.0, 0.0, 1.0]]))
+def _scaled(shape: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    return shape[0] * MM, shape[1]

@@ -14,6 +14,7 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.literature import Flexions, flexions_of
 from geocontact.analyses.area.options import LITERATURE, AreaOptions
+from geocontact.analyses.area.wear import wear_factor_of
 from geocontact.analyses.frame import places
 from geocontact.analyses.frame.bodies import (
     check_surfaces,
@@ -45,6 +46,7 @@ from geocontact.io.motion.motion import read_motion
 from geocontact.io.text.results import read_frame
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.units import LENGTH
+from geocontact.loads.wear import WearFactor
 from geocontact.view.surfaces.vtp_series import require_pyvista
 
 DIRECTIONS = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -303,6 +305,8 @@ class Bodies:
         Events that cut the motions into cycles; None without.
     stems
         Names of the motions' files.
+    wear
+        Wear factor of FIXED's layer; None unless wear is asked for.
     """
 
     moving: Surface
@@ -315,6 +319,7 @@ class Bodies:
     flexions: Flexions | None = None
     cutting: Cutting | None = None
     stems: tuple[str, ...] = ()
+    wear: WearFactor | None = None
 
     @property
     def title(self) -> str:
@@ -364,7 +369,8 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     flexions = flexions_of(o, _expanded(o.motion or ()), motions)
     cutting = cutting_of(o.events, o.cycle_side, o.part)
     stems = tuple(path.stem for path in _expanded(o.motion or ()))
-    bodies = Bodies(moving, fixed, settings, motions, reference, error, flexions=flexions, cutting=cutting, stems=stems)
+    known = {"flexions": flexions, "cutting": cutting, "stems": stems, "wear": wear_factor_of(o)}
+    bodies = Bodies(moving, fixed, settings, motions, reference, error, **known)
     return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 

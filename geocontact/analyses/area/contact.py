@@ -11,6 +11,7 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.options import FLAT, AreaOptions
+from geocontact.analyses.area.wear import wear_table, worn_over
 from geocontact.analyses.frame.bodies import confined_modulus, measured_thickness
 from geocontact.analyses.frame.collector import listener, note, reserve, say
 from geocontact.data.errors import InputError
@@ -30,9 +31,10 @@ from geocontact.geometry.contact_area.pose_error import AreaUncertainty
 from geocontact.geometry.curvature import corner_normals
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.surface_quadrature import surface_quadrature
-from geocontact.loads.foundation import Layer, Skin, layer_on
+from geocontact.loads.foundation import Layer, Pressed, Skin, layer_on
 from geocontact.loads.pressure_evolution import PressureEvolution, pressure_evolution
 from geocontact.loads.pressure_pose_error import PressureUncertainty, pressure_uncertainty
+from geocontact.loads.wear import Wearing, Worn
 
 FEW = 0.9
 """Share of the contact area that has both curvatures, below which a warning says so."""
@@ -120,8 +122,10 @@ AGREED = 0.01  # of the force; pieces of half the size may change it by no more 
 STRAINED = 0.2  # largest strain that the linear law is trusted to
 
 
-def pressures_of(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]) -> PressureEvolution:
-    """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force."""
+def pressures_of(
+    bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]
+) -> tuple[PressureEvolution, Worn | None]:
+    """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force; wear by these."""
     moving, counted = bodies.moving, bodies.settings.fixed_faces
     if not moving.closed:
         what = f"{moving.name} is open ({moving.topology.why_open}): it has no inside, so there is no depth"
@@ -132,10 +136,18 @@ def pressures_of(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept
         return elastic_layer(bodies, faces if counted is None else faces & counted, o, 0.5 * edge)
 
     layer, skin = elastic_layer(bodies, counted, o, edge), _skin(moving, o)
+    wearing = None if bodies.wear is None else Wearing(layer.pieces, motion.poses)
+
+    def each(one: Pressed) -> None:
+        if wearing is not None:
+            wearing.add(one.pressure)
+
     with listener().progress(f"pressure {name}".strip(), len(motion)) as step:
-        found = pressure_evolution(layer, bodies.fixed, moving, motion, skin, kept, finer, o.workers, step)
+        found = pressure_evolution(layer, bodies.fixed, moving, motion, skin, kept, finer, o.workers, step, each)
     _say_pressures(found, name)
-    return found
+    if wearing is None or bodies.wear is None:
+        return found, None
+    return found, worn_over(o, bodies.wear, wearing, name, found)
 
 
 PRESSED = 100
@@ -243,6 +255,8 @@ class MotionResult:
         Published areas beside these; None unless asked for.
     pressure_error
         Error of the poses carried into the loads; None unless both were asked for.
+    wear
+        Wear of FIXED's layer; None unless asked for.
     """
 
     name: str
@@ -256,13 +270,16 @@ class MotionResult:
     reservations: tuple[str, ...]
     published: pd.DataFrame | None = None
     pressure_error: PressureUncertainty | None = None
+    wear: Worn | None = None
 
 
-def tables_of(one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
-    """`area`, and `pressure`, `comparison`, `literature` and `pose_error` where they were asked for."""
+def tables_of(bodies: Bodies, one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:
+    """`area`, and `pressure`, `wear`, `comparison`, `literature` and `pose_error` where they were asked for."""
     found = {"area": area_table(one, o)}
     if one.pressure is not None:
         found["pressure"] = one.pressure.table(one.motion.time)
+    if one.wear is not None:
+        found["wear"] = wear_table(one.wear, bodies.fixed)
     if one.pressure_error is not None:
         found["pressure_error"] = one.pressure_error.table(one.motion.time)
     if one.comparison is not None:

@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.contact import MotionResult
+from geocontact.analyses.area.wear import face_depths
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Course
 from geocontact.data.version import VERSION
@@ -173,10 +174,11 @@ def write_paraview(folder: Path, bodies: Bodies, one: MotionResult) -> None:
     kept, e, motion = one.maps.frames, one.evolution, one.motion
     frames = np.asarray(kept, np.int64)
     pressure = None if one.pressure is None else np.array([one.pressure.maps[k] for k in kept])
+    wear = None if one.wear is None else face_depths(one.wear, len(bodies.fixed.faces))
     series = ContactSeries(
         time=motion.time[frames],
         poses=motion.poses[frames],
-        fixed=MappedBody(bodies.fixed.vertices, bodies.fixed.faces, one.maps.fixed, pressure),
+        fixed=MappedBody(bodies.fixed.vertices, bodies.fixed.faces, one.maps.fixed, pressure, wear),
         moving=MappedBody(bodies.moving.vertices, bodies.moving.faces, one.maps.moving),
         thresholds=e.thresholds,
         signed=e.signed,

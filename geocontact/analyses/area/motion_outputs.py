@@ -118,4 +118,5 @@ def page_of(bodies: Bodies, one: MotionResult) -> Thinned:
         one.uncertainty,
         one.congruence,
         one.published,
+        one.wear,
     )

@@ -22,6 +22,7 @@ from geocontact.analyses.frame.marks import (
     Requires,
     Spelled,
     Typed,
+    WearRate,
 )
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import (
@@ -37,6 +38,7 @@ from geocontact.analyses.frame.shared_options import (
 )
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
+    CYCLES,
     DIFFERENCE,
     FITTED,
     FRAME_RATE,
@@ -47,6 +49,7 @@ from geocontact.data.plausible import (
     SHIFT,
     THRESHOLD,
     TURN,
+    WEAR,
     YOUNG,
 )
 
@@ -225,6 +228,17 @@ class AreaOptions(Options):
     bodies
         OpenSim bodies of MOVING and FIXED, femur_r,tibia_r: forces are also written as external loads of these.
 
+    Wear of the layer
+    -----------------
+    wear_factor
+        Also compute the linear wear of FIXED by Archard's law with this factor, such as 1e-7mm^3/(N m) (wear.csv): a
+        volume per force and sliding path. Pressures are those of the surface that is not worn.
+    cross_shear
+        Instead of `wear_factor`: a table cross_shear [-], wear_factor [mm^3/(N m)] of factors by cross-shear ratio
+        (Kang et al. 2008), 0 to 0.5; linear between rows.
+    wear_cycles
+        How often the motion repeats; 1000000 by default.
+
     Work
     ----
     workers
@@ -319,6 +333,11 @@ class AreaOptions(Options):
     thickness_moving: Annotated[Thickness | None, OF_SECOND] = None
     piece: Annotated[Length | None, OF_LAYER, PIECE] = None
     bodies: Annotated[BodyPair | None, OF_LAYER] = None
+    wear_factor: Annotated[WearRate | None, OF_LAYER, WEAR] = None
+    cross_shear: Annotated[
+        Path | None, OF_LAYER, Excludes("wear_factor", "gives the factor twice", "give one of them")
+    ] = None
+    wear_cycles: Annotated[float | None, Requires("wear_factor", alternative="cross_shear"), CYCLES] = None
     workers: int | None = None
 
     def paths(self) -> Iterator[tuple[Path, Missing]]:

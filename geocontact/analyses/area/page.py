@@ -24,6 +24,7 @@ from geocontact.analyses.area.page_sections import (
     uncertainty_curves,
 )
 from geocontact.analyses.area.pressure_page import Pressures, pressure_sections, pressure_words
+from geocontact.analyses.area.wear import wear_facts, wear_words
 from geocontact.analyses.frame.pages import INPUTS, OPTIONS, Thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted, rounded
 from geocontact.data.evolution import MM, MM2, AreaEvolution
@@ -35,6 +36,7 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import AreaUncertainty
 from geocontact.geometry.surface import Surface
+from geocontact.loads.wear import Worn
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 
 HEADER = ("body", "vertices", "faces", "edge, median [mm]", "edge, longest [mm]", "size [mm]", "closed")
@@ -207,7 +209,9 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
     largest, nearest = int(np.argmax(area)), int(np.argmin(e.min_distance))
 
     lines = [] if told.pressures is None else pressure.facts(told.pressures, course)
+    lines += [] if told.wear is None else wear_facts(told.wear)
     lines.append(("Largest contact area on the fixed body", f"{area[largest]:.0f} mm² at {course.at(largest)}"))
+    lines += _coverage(told, k)
     if told.pressures is None:
         span = f"{area.min():.0f} … {area.max():.0f} mm² (mean {area.mean():.0f} mm²)"
         lines.append(("Range over the motion", span))
@@ -216,6 +220,18 @@ def facts(told: Told, k: int) -> list[tuple[str, str]]:
     lines += _uncertain_facts(told, k)
     word = "Deepest overlap" if e.min_distance[nearest] < 0.0 else "Smallest distance"
     lines.append((word, f"{abs(e.min_distance[nearest]) * MM:.2f} mm at {course.at(nearest)}"))
+    return lines
+
+
+def _coverage(told: Told, k: int) -> list[tuple[str, str]]:
+    """Largest share of each region that is in contact."""
+    e, course = told.evolution, told.motion.course
+    lines = []
+    for body, side in (("fixed", e.fixed), ("moving", e.moving)):
+        if side.coverage is not None and side.region is not None:
+            most = int(np.argmax(side.coverage[:, k]))
+            share = f"{side.coverage[most, k]:.1%} of {side.region * MM2:.0f} mm² at {course.at(most)}"
+            lines.append((f"Largest coverage of the {body} body's region", share))
     return lines
 
 
@@ -267,6 +283,7 @@ def thinned_page(
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
     published: pd.DataFrame | None = None,
+    wear: Worn | None = None,
 ) -> Thinned:
     """The page of one contact-area analysis, of as many frames as its file holds.
 
@@ -290,13 +307,15 @@ def thinned_page(
         How alike the surfaces are curved in contact; read out in each frame.
     published
         Published areas beside these.
+    wear
+        Wear of FIXED by these pressures: a second map.
     """
     if not maps.frames:
         raise ValueError("the distance maps hold no frame; gather them with area_evolution(..., each=maps.add)")
 
     def of(most: int) -> Page:
         shown = shown_frames(maps, most, () if pressures is None else (pressures.heaviest,))
-        further = pressures, compared, uncertainty, congruence, published
+        further = pressures, compared, uncertainty, congruence, published, wear
         told = Told(moving, fixed, motion, settings, evolution, maps, shown, *further)
         return contact_page(told, title)
 
@@ -324,6 +343,7 @@ def contact_page(told: Told, title: str) -> Page:
     pressed = [] if pressures is None else pressure_sections(pressures, frames)
     distance = distance_curves(e).at(frames)
     foundation = [] if pressures is None else [pressure_words(pressures)]
+    worn = [] if told.wear is None else [wear_words(told.wear)]
 
     def sections(k: int) -> list[Section]:
         words = reviewers_words(told.moving, told.fixed, told.settings, e, k, len(frames), pressures is not None)
@@ -340,6 +360,7 @@ def contact_page(told: Told, title: str) -> Page:
             *after,
             *words[:2],
             *foundation,
+            *worn,
             *words[2:],
         ]
 

@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.figure import area_curves, colour_span
 from geocontact.analyses.area.pressure_page import Pressures, face_map, pressure_rows
+from geocontact.analyses.area.wear import wear_map
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
 from geocontact.geometry.contact_area.area import CLIP, REFINED
@@ -19,7 +20,8 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import ENDS, NORMAL, AreaUncertainty
 from geocontact.geometry.surface import Surface
-from geocontact.view.page.content import Curve, Curves, Points, Row, Scene, SceneBody, Strip, Table
+from geocontact.loads.wear import Worn
+from geocontact.view.page.content import Curve, Curves, FaceMap, Points, Row, Scene, SceneBody, Strip, Table
 from geocontact.view.surfaces.camera import camera_directions
 
 READ = (
@@ -27,6 +29,8 @@ READ = (
     ("upper bound (these meshes)", "area_fixed_upper [mm^2]", 2),
     ("medial part", "area_fixed_medial [mm^2]", 2),
     ("lateral part", "area_fixed_lateral [mm^2]", 2),
+    ("coverage of the fixed body's region", "coverage_fixed [-]", 3),
+    ("coverage of the moving body's region", "coverage_moving [-]", 3),
     ("contact area on the moving body", "area_moving [mm^2]", 2),
     ("smallest distance", "min_distance [mm]", 3),
     ("penetration of the fixed body", "max_penetration_fixed [mm]", 3),
@@ -38,7 +42,7 @@ READ = (
     ("centroid z", "centroid_z [mm]", 2),
 )
 """Label, column and digits of what the page reads out in each frame, after the area of FIXED."""
-BESIDE_PRESSURES = ("min_distance [mm]", "max_penetration_fixed [mm]")
+BESIDE_PRESSURES = ("coverage_fixed [-]", "min_distance [mm]", "max_penetration_fixed [mm]")
 """Those of them that stay where pressures are read out."""
 MEASURED = {
     "area_fixed [mm^2]": "fixed body",
@@ -65,6 +69,7 @@ class Told:
     uncertainty: AreaUncertainty | None = None
     congruence: CongruenceEvolution | None = None
     published: pd.DataFrame | None = None
+    wear: Worn | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:
@@ -113,8 +118,14 @@ def scene(told: Told) -> Scene:
         span=colour_span(e),
         value_name="distance to the other body" if e.signed == "none" else "signed distance to the other body",
         directions=camera_directions(np.asarray(e.split_normal) * e.medial_side),
-        maps=() if told.pressures is None else (face_map(told.pressures, told.frames, 0),),
+        maps=_maps(told),
     )
+
+
+def _maps(told: Told) -> list[FaceMap]:
+    """Pressures, and the wear by them."""
+    found = [] if told.pressures is None else [face_map(told.pressures, told.frames, 0)]
+    return found if told.wear is None else [*found, wear_map(told.wear, len(told.fixed.faces), len(told.frames))]
 
 
 def seen_distances(

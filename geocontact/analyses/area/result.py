@@ -166,7 +166,9 @@ class AreaResult(Result):
         The main table is `pressure` where the analysis was called for that.
         """
         found = {
-            _named(one, name): table for one in self.motions for name, table in tables_of(one, self.options).items()
+            _named(one, name): table
+            for one in self.motions
+            for name, table in tables_of(self.bodies, one, self.options).items()
         }
         if self.trials:
             found |= cycle_tables(self.trials)
@@ -227,7 +229,7 @@ def over_motion(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, share
     """One motion; `shared` are the reservations that hold for all of them."""
     before = len(current().warnings)
     evolution, maps = _evaluated(bodies, o, name, motion)
-    pressure = pressures_of(bodies, o, name, motion, maps.frames) if o.pressure else None
+    pressure, wear = pressures_of(bodies, o, name, motion, maps.frames) if o.pressure else (None, None)
     say_inner_area(bodies, o, name, motion, evolution)
     comparison = None if bodies.reference is None else _compared(evolution, bodies.reference)
     uncertainty = _uncertain(bodies, o, name, motion, evolution)
@@ -238,7 +240,7 @@ def over_motion(bodies: Bodies, o: AreaOptions, name: str, motion: Motion, share
         published = beside_literature(bodies.flexions, motion, evolution, pressure, name)
     reservations = (*shared, *current().warnings[before:])
     return MotionResult(
-        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published, pressed
+        name, motion, evolution, maps, pressure, comparison, uncertainty, alike, reservations, published, pressed, wear
     )
 
 
@@ -342,7 +344,12 @@ def _summarise(e: AreaEvolution, name: str) -> None:
             round(float(areas.max()), 3),
         ]
         label = f"{name}: " if name else ""
-        say(f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2")
+        said = f"{label}area of FIXED within {threshold * 1e3:g} mm: {areas.min():.1f} … {areas.max():.1f} mm^2"
+        if e.fixed.coverage is not None and e.fixed.region is not None:
+            low, high = (float(end) for end in (e.fixed.coverage[:, k].min(), e.fixed.coverage[:, k].max()))
+            lines[f"coverage_fixed_at_{threshold * 1e3:g}_mm"] = [round(low, 6), round(high, 6)]
+            said += f", {low:.1%} … {high:.1%} of the {e.fixed.region * MM2:.1f} mm^2 of `region`"
+        say(said)
     note(name or "motion", lines)
 
 

@@ -132,6 +132,7 @@ PartMass = Annotated[float, Typed("kg", "body_mass", "1.5", "kg unless a unit is
 Degrees = Annotated[float, Typed("rad", "degrees", "gc.deg(5)", "[deg]", float)]
 Fraction = Annotated[float, Typed("-", "fraction", "0.02")]
 Pressure = Annotated[float, Typed("Pa", "pressure", "gc.MPa(0.5)")]
+WearRate = Annotated[float, Typed("m^2/N", "wear_factor", "1e-16")]
 TimeSpan = Annotated[tuple[float, float], Typed("s", "time_span", "(0.4, 1.6)"), CLOCK, Spelled(dashed=True)]
 Expression = Annotated[str, Spelled(dashed=True)]
 Texts = Annotated[tuple[str, ...], Spelled(dashed=True, each=True)]

@@ -99,6 +99,16 @@ def pressure(text: str, option: str) -> float:
     return value
 
 
+def wear_factor(text: str, option: str) -> float:
+    """ "1e-7mm^3/(N m)", "1e-7 mm3/Nm" to m^2/N, volume per force and path; the unit is never guessed."""
+    found = re.fullmatch(r"(?P<number>[-+0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(?P<unit>.*)", text.strip())
+    known = si_unit(found["unit"]) if found else None
+    if found is None or known is None or known[0] != "m^2/N":
+        what = f"{text!r} is not a wear factor"
+        raise InputError("", option, what, f"write 1e-7mm^3/(N m) (one of {', '.join(DIMENSIONS['m^2/N'])})")
+    return number(found["number"], option, "1e-7mm^3/(N m)") * known[1]
+
+
 def _is_number(text: str) -> bool:
     try:
         float(text)

@@ -329,8 +329,8 @@ def area_evolution(
     return AreaEvolution(
         time=motion.time,
         thresholds=settings.thresholds,
-        fixed=_gathered(on_fixed),
-        moving=_gathered(on_moving),
+        fixed=_gathered(on_fixed, _region(fixed, settings.fixed_faces)),
+        moving=_gathered(on_moving, _region(moving, settings.moving_faces)),
         min_distance=np.array(lowest),
         max_penetration_fixed=np.array(deepest),
         signed=pair.signed,
@@ -375,7 +375,12 @@ def area_of_outer(
     return np.asarray(getattr(found, body).area[:, 0])
 
 
-def _gathered(rows: Sequence[Sequence[AreaWithin]]) -> SideAreas:
+def _region(body: Surface, faces: Bool[np.ndarray, " f"] | None) -> float | None:
+    """Area of the faces that were chosen [m^2], each once."""
+    return None if faces is None else float(body.face_area[faces & ~body.repeated].sum()) or None
+
+
+def _gathered(rows: Sequence[Sequence[AreaWithin]], region: float | None) -> SideAreas:
     def collect(name: str) -> np.ndarray:
         return np.array([[getattr(cell, name) for cell in row] for row in rows])
 
@@ -386,4 +391,5 @@ def _gathered(rows: Sequence[Sequence[AreaWithin]]) -> SideAreas:
         error=collect("error"),
         centroid=collect("centroid"),
         negative=collect("negative"),
+        region=region,
     )

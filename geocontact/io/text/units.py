@@ -61,6 +61,7 @@ DIMENSIONS: dict[str, dict[str, float]] = {
     "m^2": {"m^2": 1.0, "cm^2": 1e-4, "mm^2": 1e-6, "in^2": _INCH**2},
     "m^3": {"m^3": 1.0, "cm^3": 1e-6, "mm^3": 1e-9},
     "N m": {"N m": 1.0, "N cm": 1e-2, "N mm": 1e-3, "kN m": 1e3, "lbf in": _POUND * _GRAVITY * _INCH},
+    "m^2/N": {"m^2/N": 1.0, "mm^2/N": 1e-6, "mm^3/(N m)": 1e-9, "mm^3/Nm": 1e-9},
     "N m^2": {"N m^2": 1.0, "N mm^2": 1e-6},
     "kg/m^3": {"kg/m^3": 1.0, "g/cm^3": 1e3},
     "N m/rad": {"N m/rad": 1.0, "N m/deg": 180.0 / pi},

@@ -51,13 +51,14 @@ class MappedBody:
     """A body in its own frame [m] and the signed distance [m] of its vertices to the other body in each frame.
 
     Distances are infinite where they were not asked for (negative: deep inside). `pressure` is that of its faces [Pa]
-    where it was computed.
+    where it was computed, `wear` the depth that they lose [m].
     """
 
     vertices: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, "m 3"]
     distance: Float[np.ndarray, "t n"]
     pressure: Float[np.ndarray, "t m"] | None = None
+    wear: Float[np.ndarray, " m"] | None = None
 
     def __post_init__(self) -> None:
         _require_distances(self.distance)

@@ -152,8 +152,8 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
     Point data are `distance [mm]`, the signed distance to the other body, and `within 4 mm` (0 or 1) for each
     threshold. Distances are truncated at the field datum `truncated at [mm]`, so that value means "at least": not a
     number would leave holes in ParaView's contour lines and infinity would spoil its colour range. Cell data are
-    `pressure [MPa]`, where pressures were computed. Field data also give TimeValue, the units, the thresholds, the
-    frame of reference and the program.
+    `pressure [MPa]` and `wear [mm]`, where these were computed. Field data also give TimeValue, the units, the
+    thresholds, the frame of reference and the program.
 
     Parameters
     ----------
@@ -176,6 +176,8 @@ def write_vtp_series(series: ContactSeries, folder: Path, program: str) -> tuple
             surface = _surface(vertices, mapped.faces, mapped.distance[k], series.thresholds, limit)
             if mapped.pressure is not None:
                 surface.cell_data["pressure [MPa]"] = (mapped.pressure[k] * MPA).astype(np.float32)
+            if mapped.wear is not None:
+                surface.cell_data["wear [mm]"] = (mapped.wear * MM).astype(np.float32)
             _describe(surface, series, k, limit, body, program)
             names[body].append(f"frames/{body}_{k:0{digits}d}.vtp")
             (folder / names[body][-1]).write_bytes(encoded_vtp(surface))

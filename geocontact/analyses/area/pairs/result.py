@@ -110,7 +110,7 @@ class PairsResult(Result):
             found["loads"] = loads_table(loads, self.time)
             found["pair_loads"] = pair_loads_table(self.pair_loads, self.pairs.of_pairs, self.time)
         for pair, one in self._both():
-            found |= {f"{one.name}/{name}": table for name, table in tables_of(one, pair.options).items()}
+            found |= {f"{one.name}/{name}": table for name, table in tables_of(pair.bodies, one, pair.options).items()}
         return found
 
     def _both(self) -> list[tuple[TouchingPair, MotionResult]]:

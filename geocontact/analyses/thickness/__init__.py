@@ -1,0 +1,1 @@
+"""Thickness between two surfaces: cartilage on bone, a liner."""
