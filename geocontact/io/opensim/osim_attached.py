@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, ElementTree, SubElement
 
 from geocontact.data.errors import InputError
 from geocontact.io.opensim.osim_writer import add_numbers
-from geocontact.io.opensim.osim_xml import read_document
+from geocontact.io.opensim.osim_xml import numbers_of, read_document
 from geocontact.io.text.tables import listed
 
 _OLD = 40_000
@@ -44,34 +44,29 @@ def write_with_meshes(
     for body, (name, mesh) in attached.items():
         if body not in bodies:
             raise InputError(file, "", f"no body '{body}'", f"bodies are: {listed(tuple(bodies))}")
-        (_show_old if old else _attach)(bodies[body], name, mesh, scale)
+        (_show_old if old else _attach)(file, bodies[body], name, mesh, scale)
     ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
 
 
-def _attach(body: Element, name: str, mesh: str, scale: float) -> None:
+def _attach(_: str, body: Element, name: str, mesh: str, scale: float) -> None:
     geometry = SubElement(_child(body, "attached_geometry"), "Mesh", name=name)
     SubElement(geometry, "socket_frame").text = ".."
     add_numbers(geometry, "scale_factors", [scale] * 3)
     SubElement(geometry, "mesh_file").text = mesh
 
 
-def _show_old(body: Element, name: str, mesh: str, scale: float) -> None:
+def _show_old(file: str, body: Element, name: str, mesh: str, scale: float) -> None:
     """OpenSim 3. Scale factors of the body's picture multiply those of a mesh, and its transform comes before."""
     visible = _child(body, "VisibleObject")
-    outer = _numbers(visible, "scale_factors", 3, 1.0)
-    if any(_numbers(visible, "transform", 6, 0.0)):
+    outer = numbers_of(file, visible, "scale_factors", 3, (1.0,) * 3)
+    if numbers_of(file, visible, "transform", 6, (0.0,) * 6).any():
         what = f"body '{body.get('name', '')}' is drawn in a frame that is not its own"
-        raise InputError(name, "", what, "open and save the model with OpenSim 4")
+        raise InputError(file, "", what, "open and save the model with OpenSim 4")
     objects = _child(_child(visible, "GeometrySet"), "objects")
     geometry = SubElement(objects, "DisplayGeometry", name=name)
     SubElement(geometry, "geometry_file").text = mesh
     add_numbers(geometry, "transform", [0.0] * 6)
     add_numbers(geometry, "scale_factors", [scale / factor for factor in outer])
-
-
-def _numbers(element: Element, child: str, count: int, default: float) -> list[float]:
-    text = element.findtext(child, "").split()
-    return [float(word) for word in text] if len(text) == count else [default] * count
 
 
 def _child(parent: Element, tag: str) -> Element:
