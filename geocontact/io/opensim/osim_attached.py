@@ -44,11 +44,14 @@ def write_with_meshes(
     for body, (name, mesh) in attached.items():
         if body not in bodies:
             raise InputError(file, "", f"no body '{body}'", f"bodies are: {listed(tuple(bodies))}")
-        (_show_old if old else _attach)(file, bodies[body], name, mesh, scale)
+        if old:
+            _show_old(file, bodies[body], name, mesh, scale)
+        else:
+            _attach(bodies[body], name, mesh, scale)
     ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
 
 
-def _attach(_: str, body: Element, name: str, mesh: str, scale: float) -> None:
+def _attach(body: Element, name: str, mesh: str, scale: float) -> None:
     geometry = SubElement(_child(body, "attached_geometry"), "Mesh", name=name)
     SubElement(geometry, "socket_frame").text = ".."
     add_numbers(geometry, "scale_factors", [scale] * 3)
