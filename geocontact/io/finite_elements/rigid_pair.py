@@ -80,7 +80,7 @@ class RigidPair:
     @property
     def displacement(self) -> Float[np.ndarray, "s 3"]:
         """Displacement of `centre` from the first frame to each one [mm]."""
-        return (self._known.translation - self._known.translation[0]) * MM
+        return np.asarray(self._known.translation - self._known.translation[0]) * MM
 
     @property
     def rotation(self) -> Float[np.ndarray, "s 3"]:
