@@ -457,3 +457,18 @@ def orientation_kinematics(
     table = opensim.TimeSeriesTable(str(out / f"ik_{recording.stem}.mot"))
     names = [str(name).rpartition("/")[2] for name in table.getColumnLabels()]
     return names, table.getMatrix().to_numpy()
+
+
+def meshes(file: Path) -> dict[str, tuple[str, str, list[float]]]:
+    """Body, file and scale factors of each mesh of a model, by its name."""
+    import opensim
+
+    model, _ = _model(file)
+    found = {}
+    for component in model.getComponentsList():
+        if component.getConcreteClassName() == "Mesh":
+            mesh = opensim.Mesh.safeDownCast(component)
+            scale = mesh.get_scale_factors()
+            body = mesh.getFrame().findBaseFrame().getName()
+            found[mesh.getName()] = (body, mesh.getGeometryFilename(), [scale.get(k) for k in range(3)])
+    return found

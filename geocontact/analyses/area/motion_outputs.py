@@ -10,6 +10,7 @@ import numpy as np
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.distance_file import FILE, write_maps
+from geocontact.analyses.area.exports import write_exports
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.area.page import thinned_page
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 PARAVIEW = "paraview"
 """Folder of the series for ParaView."""
 
+EXPORT = "export"
+"""Folder of the models for other programs."""
+
 PRESSURE_MAPS = "pressure.npz"
 
 
@@ -40,7 +44,8 @@ def write_further(o: AreaOptions, bodies: Bodies, one: MotionResult, folder: Pat
     if one.uncertainty is not None:
         _write_draws(one, one.uncertainty, folder / POSE_DRAWS)
     _write_maps(o, bodies, one, folder)
-    return write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else []
+    notes = [] if o.export is None else write_exports(o, o.export, bodies, one, folder / EXPORT)
+    return notes + (write_stills(folder, bodies, one, heading(bodies, one)) if o.stills else [])
 
 
 def _write_draws(one: MotionResult, u: AreaUncertainty, file: Path) -> None:

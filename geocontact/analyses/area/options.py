@@ -30,11 +30,14 @@ from geocontact.analyses.frame.shared_options import (
     CyclePart,
     Medial,
     PoseSd,
+    Programs,
     Side,
     Sweep,
     Thickness,
     medial_side,
     refuse_pose_sd,
+    refuse_programs,
+    refuse_thresholds,
 )
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import (
@@ -200,6 +203,8 @@ class AreaOptions(Options):
         Also write the distance of every vertex in every frame (distances.npz).
     paraview
         Also write both bodies with their distances over time for ParaView (folder paraview).
+    export
+        Also write both bodies and their motion for other programs, typed febio,abaqus,opensim (folder export).
     stills
         Also write 3-D pictures of the frame with the largest area (still_plus_y.png and others).
 
@@ -319,6 +324,7 @@ class AreaOptions(Options):
     flexion: Annotated[Expression | None, READS_NO_FILE, Requires("compare", "leave it out")] = None
     save_map: bool = False
     paraview: bool = False
+    export: Programs | None = None
     stills: bool = False
     pressure: Annotated[
         bool, Needs("modulus", "give for example 500MPa"), Needs("poisson", "give for example 0.46")
@@ -360,6 +366,7 @@ class AreaOptions(Options):
         self._refuse_comparison()
         refuse_thresholds(self.threshold)
         self._refuse_errors()
+        refuse_programs(self.export, self.osim)
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
             raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
 
@@ -388,14 +395,6 @@ class AreaOptions(Options):
         refuse_pose_sd(self.pose_sd)
         if self.seed is not None and self.seed < 0:
             raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
-
-
-def refuse_thresholds(thresholds: tuple[float, ...]) -> None:
-    """InputError where there is none, or one twice."""
-    if not thresholds:
-        raise InputError("", "`threshold`", "there is none", "give for example 4 mm")
-    if len(set(thresholds)) < len(thresholds):
-        raise InputError("", "`threshold`", f"{thresholds} names a threshold twice", "give each once")
 
 
 @dataclass(frozen=True, kw_only=True)

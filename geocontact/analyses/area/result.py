@@ -202,7 +202,7 @@ class AreaResult(Result):
         return (*own[folder], *self.notes.get(folder, ()))
 
     def write_files(self, folder: Path) -> None:
-        """Maps, series for ParaView, stills and loads for OpenSim besides, as asked for."""
+        """Maps, series for ParaView, models for other programs, stills and loads for OpenSim, as asked for."""
         for one in self.motions:
             self.notes[one.name] = write_further(self.options, self.bodies, one, folder / one.name)
             for line in self.notes[one.name]:

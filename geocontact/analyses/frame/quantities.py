@@ -308,6 +308,11 @@ def body_pair(text: str, option: str) -> tuple[str, str]:
     return names[0], names[1]
 
 
+def programs(text: str, option: str) -> tuple[str, ...]:
+    """ "febio,abaqus" to names."""
+    return tuple(name.strip() for name in text.split(","))
+
+
 def ratios(text: str, option: str) -> tuple[float, ...]:
     """ "0.25,0.46" to numbers."""
     return tuple(number(part, option, "0.25,0.46") for part in text.split(","))

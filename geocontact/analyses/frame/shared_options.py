@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Literal
 
 from geocontact.analyses.frame.marks import Spelled, Typed
@@ -29,6 +30,11 @@ Thickness = Annotated[float | Literal["rays"], Typed("m", "thickness", "gc.mm(8)
 
 CyclePart = Annotated[float | Literal["stance"], Typed("-", "cycle_part", "0.6"), SHARE]
 """First part of each cycle, or up to its toe off."""
+
+PROGRAMS = ("febio", "abaqus", "opensim")
+"""Programs that bodies and their motion are written for."""
+
+Programs = Annotated[tuple[str, ...], Typed("-", "programs", '("febio", "abaqus")')]
 
 PoseSd = Annotated[tuple[float, ...], Typed("m, rad", "pose_sd", "(5e-4, 5e-4, 5e-4, *gc.deg(1, 1, 1))"), POSE]
 """Standard deviations of three shifts and three turns of a pose."""
@@ -95,3 +101,23 @@ def medial_side(split: str, side: str | None, medial: str | None) -> MedialSide:
         what = f"{side} does not say which side of a plane across {axis} is medial: z is what points to the right"
         raise InputError("", "`side`", what, "give `medial` - or +")
     return MedialSide(1 if MEDIAL[side] == "+" else -1, axis, f"{side} side, z to the right")
+
+
+def refuse_thresholds(thresholds: tuple[float, ...]) -> None:
+    """InputError where there is none, or one twice."""
+    if not thresholds:
+        raise InputError("", "`threshold`", "there is none", "give for example 4 mm")
+    if len(set(thresholds)) < len(thresholds):
+        raise InputError("", "`threshold`", f"{thresholds} names a threshold twice", "give each once")
+
+
+def refuse_programs(asked: tuple[str, ...] | None, osim: Path | None) -> None:
+    """InputError for a program that is not known or named twice, and for OpenSim without a model."""
+    for name in asked or ():
+        if name not in PROGRAMS:
+            raise InputError("", "`export`", f"{name!r} is not a program", f"name one of: {', '.join(PROGRAMS)}")
+    if asked is not None and (not asked or len(set(asked)) < len(asked)):
+        raise InputError("", "`export`", "names no program, or one twice", "give for example febio")
+    if "opensim" in (asked or ()) and osim is None:
+        what = "opensim attaches the meshes to the bodies of a joint, and there is no model"
+        raise InputError("", "`export`", what, "give `osim` and `joint`")

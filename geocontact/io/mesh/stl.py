@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -191,3 +192,14 @@ def _first_mismatch(words: list[bytes], face: int, file: str) -> InputError:
             what = f"'{expected.decode()}' expected but {shown(word)} found; every facet has 3 vertices of 3 numbers"
             return InputError(file, f"face {face + i // size}", what, _AGAIN)
     return InputError(file, f"face {face + len(words) // size}", "the facet is not complete", _AGAIN)
+
+
+def write_stl(file: Path, corners: Float[np.ndarray, "m 3 3"], text: str) -> None:
+    """Write a binary STL of the corners of every face; `text` goes into its header. Places are float32."""
+    facets = np.zeros(len(corners), RECORD)
+    facets["corners"] = corners
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    facets["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
+    head = text.encode("ascii", "replace")[:80].ljust(80, b" ") + np.uint32(len(corners)).tobytes()
+    file.write_bytes(head + facets.tobytes())

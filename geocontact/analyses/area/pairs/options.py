@@ -6,9 +6,9 @@ from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.area.options import refuse_thresholds
 from geocontact.analyses.frame.marks import Fraction, Lengths, Spelled
 from geocontact.analyses.frame.options import Options
+from geocontact.analyses.frame.shared_options import refuse_thresholds
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import SHARE, THRESHOLD
 

@@ -1,0 +1,125 @@
+"""Both bodies and their motion as models for other programs: FEBio, Abaqus, a model of OpenSim with the meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from geocontact.analyses.area.bodies import Bodies
+from geocontact.analyses.area.contact import MotionResult
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.data.errors import InputError
+from geocontact.data.evolution import MM
+from geocontact.data.version import VERSION
+from geocontact.geometry.surface import Surface
+from geocontact.io.finite_elements.abaqus import write_abaqus
+from geocontact.io.finite_elements.febio import write_febio
+from geocontact.io.finite_elements.rigid_pair import MPA_PER_MM, RigidPair
+from geocontact.io.mesh.stl import write_stl
+from geocontact.io.opensim.osim import read_joint
+from geocontact.io.opensim.osim_attached import write_with_meshes
+from geocontact.loads.pressure_evolution import PressureEvolution
+
+PROGRAM = f"geocontact {VERSION}"
+EVEN = 0.01
+"""Relative spread of a layer's thickness above which one stiffness for all of it is a simplification."""
+GEOMETRY = "Geometry"
+"""Folder beside a model where OpenSim looks for meshes."""
+_WRITERS = {"febio": ("contact.feb", write_febio), "abaqus": ("contact.inp", write_abaqus)}
+
+
+def write_exports(
+    o: AreaOptions, programs: tuple[str, ...], bodies: Bodies, one: MotionResult, folder: Path
+) -> list[str]:
+    """Write the models of one motion into a folder of their own; what is to be said of them.
+
+    `contact.feb` and `contact.inp` have both surfaces, the motion as it was, and where pressures were computed a
+    contact law of one stiffness. A copy of the joint's model, under its own name, has the meshes on the joint's bodies.
+    """
+    folder.mkdir(exist_ok=True)
+    notes: list[str] = []
+    for name in programs:
+        if name == "opensim":
+            _write_model(o, bodies, folder)
+            continue
+        file, write = _WRITERS[name]
+        pair = pair_of(o, bodies, one)
+        write(folder / file, pair, PROGRAM)
+        notes += [f"`export`: {line}" for line in (*_doubts(one.pressure), *_doubts_of_time(one))]
+    return list(dict.fromkeys(notes))
+
+
+def pair_of(o: AreaOptions, bodies: Bodies, one: MotionResult) -> RigidPair:
+    """Both surfaces with the motion, and the stiffness of the layer where pressures were computed."""
+    fixed, moving, e = bodies.fixed, bodies.moving, one.pressure
+    return RigidPair(
+        time=one.motion.time,
+        poses=one.motion.poses,
+        fixed=(fixed.vertices, fixed.faces),
+        moving=(moving.vertices, moving.faces),
+        touching_fixed=bodies.settings.fixed_faces,
+        touching_moving=bodies.settings.moving_faces,
+        stiffness=None if e is None else stiffness_of(e),
+        young=None if e is None else o.modulus,
+        poisson=None if e is None else o.poisson,
+        notes=(
+            f"FIXED is {fixed.name}, MOVING is {moving.name}; all places are in FIXED's frame",
+            f"time 0 is {one.motion.time[0]:g} {one.motion.time_unit} of the motion; MOVING's nodes are placed at it",
+            *_law_words(e),
+        ),
+    )
+
+
+def stiffness_of(e: PressureEvolution) -> float:
+    """Pressure by depth [Pa/m] of a linear foundation of the median thickness; layers on both bodies are in series."""
+    compliance = float(np.median(e.layer.thickness)) / e.layer.modulus
+    if e.skin.thickness is not None:
+        compliance += float(np.median(e.skin.thickness)) / e.skin.modulus
+    return 1.0 / compliance
+
+
+def _law_words(e: PressureEvolution | None) -> Iterator[str]:
+    if e is None:
+        yield "no contact law: pressures were not computed"
+        return
+    stiffness = stiffness_of(e) * MPA_PER_MM
+    yield f"pressure = {stiffness:.6g} MPa/mm x depth: linear elastic foundation, confined modulus by thickness"
+
+
+def _doubts(e: PressureEvolution | None) -> Iterator[str]:
+    if e is None:
+        yield "the models for finite elements have no contact law, since no pressures were computed (`pressure`)"
+        return
+    low, middle, high = (float(np.quantile(e.layer.thickness, q)) for q in (0.0, 0.5, 1.0))
+    if high - low > EVEN * middle:
+        yield (
+            f"contact of the models has one stiffness, of the median thickness {middle * MM:.3g} mm; the layer is "
+            f"{low * MM:.3g} to {high * MM:.3g} mm thick, so pressures differ"
+        )
+    if e.layer.law != "linear":
+        yield f"contact of the models is linear, and `foundation` is {e.layer.law}: pressures differ at large strain"
+
+
+def _doubts_of_time(one: MotionResult) -> Iterator[str]:
+    if one.motion.time_unit != "s":
+        yield f"time of the models is in {one.motion.time_unit}, as in the motion; velocities are by that"
+
+
+def _write_model(o: AreaOptions, bodies: Bodies, folder: Path) -> None:
+    """The joint's model with a mesh more on both of its bodies, in mm with scale factors of 0.001."""
+    if o.osim is None or o.joint is None:
+        raise InputError("", "`export`", "opensim needs a joint", "give `osim` and `joint`")
+    joint = read_joint(o.osim, o.joint)
+    fixed, moving = (joint.parent, joint.child) if o.moving_body != "parent" else (joint.child, joint.parent)
+    (folder / GEOMETRY).mkdir(exist_ok=True)
+    attached = {}
+    for body, part, surface in ((fixed, "fixed", bodies.fixed), (moving, "moving", bodies.moving)):
+        _write_surface(folder / GEOMETRY / f"{part}.stl", surface, body)
+        attached[body] = (f"geocontact_{part}", f"{part}.stl")
+    write_with_meshes(o.osim, folder / o.osim.name, attached, 1.0 / MM)
+
+
+def _write_surface(file: Path, surface: Surface, body: str) -> None:
+    write_stl(file, surface.vertices[surface.faces] * MM, f"{surface.name} in the frame of {body}, mm")

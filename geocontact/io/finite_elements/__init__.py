@@ -1,0 +1,1 @@
+"""Input files of finite-element programs: FEBio and Abaqus."""
