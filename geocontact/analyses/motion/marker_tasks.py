@@ -14,7 +14,6 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, current, reserve
 from geocontact.analyses.frame.quantities import named_file, number
-from geocontact.analyses.motion.naming import Naming
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -140,9 +139,9 @@ def marker_tasks(
     follow: Path | None = None,
     weight: tuple[str, ...] = (),
     hold: tuple[str, ...] = (),
-    naming: Naming | None = None,
+    known: MarkerTasks | None = None,
 ) -> MarkerTasks:
-    """Weights of the task file, of a marker set known by name, or 1 for every marker; then what single options say.
+    """Weights of the task file, those that are `known`, or 1 for every marker; then what single options say.
 
     `follow` is the recording that tasks of the kind from_file keep coordinates near.
     """
@@ -151,7 +150,7 @@ def marker_tasks(
             str(current().options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
         )
     if file is None:
-        tasks = MarkerTasks({m.name: 1.0 for m in model.markers} if naming is None else naming.weights)
+        tasks = known or MarkerTasks({m.name: 1.0 for m in model.markers})
     else:
         tasks = read_marker_weights(file)
         add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
