@@ -158,7 +158,8 @@ def test_markers_of_a_model_that_two_sets_place_apart_are_not_used(file: Path) -
 HIP, KNEE, ANKLE = np.array([-0.07, -0.066, 0.0835]), np.array([0.0, -0.42, 0.0]), np.array([0.0, -0.40, 0.0])
 
 
-def _joint(name: str, kind: str, parent: str, child: str, at: np.ndarray, coordinates: int) -> str:
+def joint_text(name: str, kind: str, parent: str, child: str, at: np.ndarray, coordinates: int) -> str:
+    """A joint of OpenSim 4 with its frames and coordinates."""
     named = "".join(f'<Coordinate name="{name}_{k}"/>' for k in range(coordinates))
     frames = "".join(
         f'<PhysicalOffsetFrame name="{body}_o"><socket_parent>{"/ground" if body == "ground" else "/bodyset/" + body}'
@@ -181,10 +182,10 @@ def file(tmp_path: Path) -> Path:
         for name in ("pelvis", "femur_r", "tibia_r", "talus_r")
     )
     joints = (
-        _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6)
-        + _joint("hip_r", "BallJoint", "pelvis", "femur_r", HIP, 3)
-        + _joint("knee_r", "PinJoint", "femur_r", "tibia_r", KNEE, 1)
-        + _joint("ankle_r", "PinJoint", "tibia_r", "talus_r", ANKLE, 1)
+        joint_text("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6)
+        + joint_text("hip_r", "BallJoint", "pelvis", "femur_r", HIP, 3)
+        + joint_text("knee_r", "PinJoint", "femur_r", "tibia_r", KNEE, 1)
+        + joint_text("ankle_r", "PinJoint", "tibia_r", "talus_r", ANKLE, 1)
     )
     own = {
         "R.ASIS": ("pelvis", (0.02, 0.03, 0.12)),
@@ -363,8 +364,9 @@ def two_legs(tmp_path: Path) -> Path:
         f'<Body name="{name}"><mass>5</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>'
         for name in ("pelvis", "femur_r", "femur_l")
     )
-    joints = _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6) + "".join(
-        _joint(f"hip_{s}", "BallJoint", "pelvis", f"femur_{s}", HIP * (1, 1, z), 3) for s, z in (("r", 1), ("l", -1))
+    joints = joint_text("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6) + "".join(
+        joint_text(f"hip_{s}", "BallJoint", "pelvis", f"femur_{s}", HIP * (1, 1, z), 3)
+        for s, z in (("r", 1), ("l", -1))
     )
     markers = "".join(
         f'<Marker name="{s.upper()}.{name}"><socket_parent_frame>/bodyset/{body.format(s)}</socket_parent_frame>'

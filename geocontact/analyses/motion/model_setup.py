@@ -168,7 +168,9 @@ def setup_tasks(known: KnownSetup, naming: Naming, *, standing: bool) -> MarkerT
         if not left_out and not given.get(place):
             others.append(n.label)
     if others:
-        reserve(f"{known.name}: the source has no weight for {listed(tuple(others))}: that of the others on the segment")
+        reserve(
+            f"{known.name}: the source has no weight for {listed(tuple(others))}: that of the others on the segment"
+        )
     names = {c.name for c in naming.model.coordinates}
     near = {name: (weight, None) for name, weight in known.setup.coordinates.items() if name in names}
     return MarkerTasks(markers, near)

@@ -34,8 +34,8 @@ class ScaleOptions(Options):
         helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table,
         and without `scale` the set's pairs measure the bodies.
     model_setup
-        Set-up of a public full-body model, pairs of markers that measure each segment, and weights of the markers: auto knows the
-        model by its name or bodies, or gait2392, hamner, rajagopal, laiuhlrich. Includes `naming` auto.
+        Set-up of a public full-body model: pairs of markers that measure each segment, weights of markers. auto knows
+        the model by its name or bodies; or gait2392, hamner, rajagopal, laiuhlrich. Includes `naming` auto.
     mass
         Mass of the subject [kg], shared among the bodies as in the model.
     mass_by_volume
