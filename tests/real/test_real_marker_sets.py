@@ -22,6 +22,7 @@ SETS = {
     "bmclab_gait_c3d/Gait.c3d": "helen-hayes 22 of 22",
     "opensim_walk/subject01_static.trc": "cleveland 49 of 49",
     "opensim_walk/subject01_walk1.trc": "cleveland 41 of 49",
+    "opensim_walk/markers_walk.trc": "rajagopal-walk 41 of 43",
     "c3d_variety/Eb015pr.c3d": "cast-clusters 26 of 28",
     "gc6_dm_knee/gait/DM_ngait_og1_new.trc": "grand-challenge 58 of 58",
     "gc4_jw_knee/c3d/jw_ngait_og3.c3d": "grand-challenge 48 of 58",

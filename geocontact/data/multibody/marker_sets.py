@@ -386,6 +386,25 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
             **{f"{{s}}TB{k}": "shank_cluster" for k in (1, 2, 3)},
         },
     ),
+    "rajagopal-walk": MarkerSet(
+        "Walk of Rajagopal 2016, with clusters, labels of Cortex",
+        "Rajagopal et al. 2016; labels of markers_walk.trc, example3DWalking of opensim-core, with the toe's "
+        "marker 0.3 m from the heel's",
+        {
+            **{label: place for label, place in _CORTEX.items() if "Medial" not in label},
+            "S2": "sacrum",
+            "{s}.Toe": "toe_tip",
+            "{s}.MT5": "metatarsal_5",
+            "{s}.Shoulder": "acromion",
+            "{s}.Clavicle": "clavicle",
+            "{s}.Biceps": "arm",
+            "{s}.Elbow": "elbow_lateral",
+            "{s}.Forearm": "forearm",
+            "{s}.Wrist": "wrist",
+            **{f"{{s}}.TH{k}": "thigh_cluster" for k in range(1, 5)},
+            **{f"{{s}}.SH{k}": "shank_cluster" for k in range(1, 5)},
+        },
+    ),
     "cast-clusters": MarkerSet(
         "Clusters on thigh, shank and foot, as in CAST: no anatomical place",
         "Cappozzo et al. 1995; labels of public Eb015pr.c3d",
