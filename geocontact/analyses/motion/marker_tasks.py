@@ -156,13 +156,13 @@ def marker_tasks(
         add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
         if (named := tasks_file(file)) != file:
             add_input("tasks that it names", named)
-    known = {c.name for c in model.coordinates}
+    coordinates = {c.name for c in model.coordinates}
     markers = {**tasks.markers, **weights_typed(weight, {m.name for m in model.markers}, "R.Heel=10")}
     wanted = held_near(model, hold)
     _refuse_strangers(model, seen, markers)
     weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
     _warn(model, seen, markers, [*weighed, *tasks.from_file])
-    near = {name: by for name, by in tasks.from_file.items() if name in known and name not in wanted}
+    near = {name: by for name, by in tasks.from_file.items() if name in coordinates and name not in wanted}
     followed = _followed(model, seen, near, file, follow)
     return MarkerTasks(markers, {**tasks.coordinates, **wanted}, near, followed)
 
