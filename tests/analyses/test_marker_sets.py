@@ -20,7 +20,7 @@ from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.io.mocap.trc import read_trc, write_trc
 from geocontact.io.opensim.osim_multibody import read_multibody
 
-PUBLIC = {  # labels of public files
+PUBLIC = {  # labels of public files and lists, those that MarkerSet.source names
     "plug-in-gait-lower": "LASI RASI LPSI RPSI RTHI RKNE RTIB RANK RHEE RTOE LTHI LKNE LTIB LANK LHEE LTOE",
     "plug-in-gait": "LFHD RFHD LBHD RBHD C7 T10 CLAV STRN RBAK LSHO LELB LWRA LWRB LFIN RSHO RELB RWRA RWRB RFIN LASI "
     "RASI LPSI RPSI LTHI LKNE LTIB LANK LHEE LTOE RTHI RKNE RTIB RANK RHEE RTOE",
@@ -37,6 +37,17 @@ PUBLIC = {  # labels of public files
     "opencap-keypoints": "Neck RShoulder RElbow RWrist LShoulder LElbow LWrist midHip RHip RKnee RAnkle LHip LKnee "
     "LAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel",
     "ior": "RASIS LASIS RPSIS LPSIS RGT LGT RLE LLE RME LME RHF RTT RLM LLM RMM RCA RFM RSM RVM",
+    "cgm2.4": "LASI RASI LPSI RPSI RTHI RKNE RTIAP RTIAD RTIB RANK RHEE RSMH RTOE RFMH RVMH LTHI LKNE LTHAP LTHAD LTIB "
+    "LANK LTIAP LTIAD LHEE LSMH LTOE LFMH LVMH RKNM LKNM RMED LMED",
+    "ior-qualisys": "L_IAS R_IAS L_IPS R_IPS R_FTC R_FLE R_FME R_FAL R_TAM R_FCC R_FM1 R_FM2 R_FM5",
+    "ior-bmclab": "R.ASIS L.ASIS R.PSIS L.PSIS L.Iliac.Crest R.Iliac.Crest R.GTR R.Knee R.HF R.TT R.Ankle R.Heel R.MT1 "
+    "R.MT5 L.GTR L.Knee L.HF L.TT L.Ankle L.Heel L.MT1 L.MT5 R.Knee.Medial R.Ankle.Medial R.MT2 L.Knee.Medial "
+    "L.Ankle.Medial L.MT2",
+    "helen-hayes-cortex": "R.Shoulder L.Shoulder R.Bicep R.Elbow R.ForeArm R.Radius R.Ulna R.Thumb R.Pinky L.Bicep "
+    "L.Elbow L.Forearm L.Radius L.Ulna L.Thumb L.Pinky R.ASIS L.ASIS R.PSIS L.PSIS V.Sacral R.Thigh R.Knee R.Shank "
+    "R.Ankle R.Heel R.Toe R.Foot L.Thigh L.Knee L.Shank L.Ankle L.Toe L.Heel L.Foot",
+    "rris40": "RTEMP RHEAD LHEAD LTEMP RACR RHLE RHME RRSP RUSP RCAP RHMC2 RFLE RFME RTAM RFAL RFCC RFMT1 RFMT5 STER "
+    "XPRO C7 T10 RASIS LASIS LPSIS RPSIS LACR LHLE LHME LRSP LUSP LCAP LHMC2 LFLE LFME LTAM LFAL LFCC LFMT1 LFMT5",
     "cast-clusters": "RFT1 RFT2 RFT3 LFT1 RSK1 RSK2 RSK3 RSK4 RTH1 RTH2 RTH3 RTH4 PV1 PV2 PV3 pv4",
 }
 
@@ -91,6 +102,28 @@ def test_labels_of_rajagopals_model_name_the_place_nearest_to_its_marker(label: 
     assert off[named] < 0.04
 
 
+BIOMEC = {  # first row of BMClab's public BiomecII2018_gait_n.txt: right leg in IOR's labels, x forward, y up [mm]
+    "RHF": (102.46, 409.20, -228.73),
+    "RTT": (157.71, 427.24, -271.53),
+    "RLM": (226.21, 77.22, -247.40),
+    "RMM": (253.55, 109.31, -322.97),
+    "RCA": (194.83, 40.30, -297.36),
+    "RFM": (390.65, 104.91, -272.78),
+    "RVM": (353.49, 79.48, -215.40),
+}
+
+
+@pytest.mark.parametrize(("one", "other"), [(a, b) for a in BIOMEC for b in BIOMEC if a < b])
+def test_places_of_iors_labels_are_as_far_apart_as_on_a_public_subject(one: str, other: str) -> None:
+    """Within a segment; LE and ME were recorded as well, on a segment of their own with a virtual third point."""
+    places = [PLACES[MARKER_SETS["ior"].places()[normalised(label)][0]] for label in (one, other)]
+    if places[0].segment != places[1].segment:
+        return
+    assert places[0].at is not None and places[1].at is not None
+    table = np.linalg.norm(np.subtract(places[0].at, places[1].at))
+    assert table == pytest.approx(1e-3 * np.linalg.norm(np.subtract(BIOMEC[one], BIOMEC[other])), abs=0.03), "m"
+
+
 def test_coverage_counts_labels_of_the_set_and_of_the_file() -> None:
     first = coverages(["LASI", "LPSI", "LKNE", "LANK", "foo"])[0]
     assert first.words == "plug-in-gait-lower 4 of 16, left side only"
@@ -119,11 +152,17 @@ def test_a_label_of_another_set_is_added_only_where_all_sets_agree() -> None:
 
 
 def test_joints_of_video_are_not_markers_on_skin() -> None:
-    """R.Knee and R.Ankle beside R.ASIS are on the skin somewhere, not the centres that OpenCap's keypoints are."""
+    """R.Knee and R.Ankle beside R.ASIS are on the skin, not the centres that OpenCap's keypoints are."""
     labels = ["R.ASIS", "L.ASIS", "R.PSIS", "L.PSIS", "R.GTR", "R.Knee", "R.Ankle", "R.Heel", "R.MT1", "R.MT5"]
     found = recognised(labels, "file")
-    assert found.words == "grand-challenge 5 of 58"
-    assert found.further == {}, "ior's R.GT is not R.GTR"
+    assert found.words == "ior-bmclab 10 of 28"
+    assert found.found["R.Knee"] == ("knee_lateral", "r") and found.further == {}
+    legs = [f"{s}.{name}" for s in "RL" for name in ("ASIS", "Thigh", "Knee", "Shank", "Ankle", "Heel", "Toe")]
+    found = recognised([*legs, "V.Sacral"], "file")
+    assert found.words == "helen-hayes-cortex 15 of 40", "was opencap-keypoints 6 of 20"
+    assert found.found["L.Ankle"] == ("ankle_lateral", "l")
+    with pytest.raises(InputError, match=r"opencap-keypoints 4 of 20 and ior-bmclab 4 of 28: both fit, and differ"):
+        recognised(["R.Knee", "L.Knee", "R.Ankle", "L.Ankle"], "file")
     centres = [label for label in PUBLIC["opencap-keypoints"].split() if "Heel" not in label]
     study = [label.format(s=side) for label in MARKER_SETS["opencap"].labels for side in "rl" if "{s}" in label]
     found = recognised([*study, *centres], "file")
@@ -158,7 +197,8 @@ def test_markers_of_a_model_that_two_sets_place_apart_are_not_used(file: Path) -
 HIP, KNEE, ANKLE = np.array([-0.07, -0.066, 0.0835]), np.array([0.0, -0.42, 0.0]), np.array([0.0, -0.40, 0.0])
 
 
-def _joint(name: str, kind: str, parent: str, child: str, at: np.ndarray, coordinates: int) -> str:
+def joint_text(name: str, kind: str, parent: str, child: str, at: np.ndarray, coordinates: int) -> str:
+    """A joint of OpenSim 4 with its frames and coordinates."""
     named = "".join(f'<Coordinate name="{name}_{k}"/>' for k in range(coordinates))
     frames = "".join(
         f'<PhysicalOffsetFrame name="{body}_o"><socket_parent>{"/ground" if body == "ground" else "/bodyset/" + body}'
@@ -181,10 +221,10 @@ def file(tmp_path: Path) -> Path:
         for name in ("pelvis", "femur_r", "tibia_r", "talus_r")
     )
     joints = (
-        _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6)
-        + _joint("hip_r", "BallJoint", "pelvis", "femur_r", HIP, 3)
-        + _joint("knee_r", "PinJoint", "femur_r", "tibia_r", KNEE, 1)
-        + _joint("ankle_r", "PinJoint", "tibia_r", "talus_r", ANKLE, 1)
+        joint_text("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6)
+        + joint_text("hip_r", "BallJoint", "pelvis", "femur_r", HIP, 3)
+        + joint_text("knee_r", "PinJoint", "femur_r", "tibia_r", KNEE, 1)
+        + joint_text("ankle_r", "PinJoint", "tibia_r", "talus_r", ANKLE, 1)
     )
     own = {
         "R.ASIS": ("pelvis", (0.02, 0.03, 0.12)),
@@ -363,8 +403,9 @@ def two_legs(tmp_path: Path) -> Path:
         f'<Body name="{name}"><mass>5</mass><mass_center>0 0 0</mass_center><inertia>1 1 1 0 0 0</inertia></Body>'
         for name in ("pelvis", "femur_r", "femur_l")
     )
-    joints = _joint("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6) + "".join(
-        _joint(f"hip_{s}", "BallJoint", "pelvis", f"femur_{s}", HIP * (1, 1, z), 3) for s, z in (("r", 1), ("l", -1))
+    joints = joint_text("root", "FreeJoint", "ground", "pelvis", np.zeros(3), 6) + "".join(
+        joint_text(f"hip_{s}", "BallJoint", "pelvis", f"femur_{s}", HIP * (1, 1, z), 3)
+        for s, z in (("r", 1), ("l", -1))
     )
     markers = "".join(
         f'<Marker name="{s.upper()}.{name}"><socket_parent_frame>/bodyset/{body.format(s)}</socket_parent_frame>'

@@ -389,3 +389,44 @@ def test_a_folder_after_a_flag_is_a_folder(leg: Path, tmp_path: Path) -> None:
     other = put(leg, tmp_path / "other", ("still.trc", "static.trc"))
     refused = call("scale", root, other, "--mass=30", "--out", tmp_path / "no")
     assert refused.code == 2 and f"{other}: is a second folder beside {root}; name one" in refused.err, refused.err
+
+
+def test_loads_beside_the_trials_of_a_laboratory_act(leg: Path, tmp_path: Path) -> None:
+    """As opensim-models has them: the same moments as with the files named; gravity alone acted before."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"), ("walk.mot", "walk_ik.mot"))
+    put(leg, root, ("loads.xml", "walk_grf.xml"), ("grf.mot", "grf.mot"))
+    (found,) = folder_inputs("id", root)
+    assert dict(found.options)["loads"] == str(root / "walk_grf.xml") and not found.warnings
+    typed = ("--model", leg / "leg.osim", "--loads", leg / "loads.xml", "--out", tmp_path / "typed")
+    codes = call("id", root, "--out", tmp_path / "folder").code, call("id", leg / "walk.mot", *typed).code
+    assert codes[0] == codes[1], "a residual that loads made up here leave"
+    ours, theirs = (tmp_path / name / "id.sto" for name in ("folder", "typed"))
+    assert ours.read_bytes() == theirs.read_bytes()
+
+
+def test_forces_that_name_no_body_are_not_passed_over(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"), ("walk.mot", "walk_ik.mot"))
+    put(leg, root, ("grf.mot", "walk_grf.mot"))
+    with pytest.raises(InputError, match=r"walk_grf.mot: holds forces of the ground, .*; give `loads`"):
+        folder_inputs("id", root)
+    (typed,) = folder_inputs("id", root, typed=frozenset({"plates"}))
+    assert "loads" not in dict(typed.options)
+
+
+def test_a_model_and_its_motions_alone_are_trials(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.mot", "slow.mot"), ("walk.mot", "fast_ik.mot"))
+    put(leg, root, ("loads.xml", "slow_grf.xml"), ("grf.mot", "slow_grf.mot"))
+    fast, slow = folder_inputs("id", root, typed=frozenset({"model"}))
+    assert (fast.trial, fast.recording.name, slow.trial) == ("fast", "fast_ik.mot", "slow")
+    assert dict(slow.options)["loads"] == str(root / "slow_grf.xml")
+    with pytest.raises(InputError, match="no trial has markers; is the folder complete"):
+        folder_inputs("ik", root)
+    (root / "leg.osim").unlink()
+    with pytest.raises(InputError, match="is no folder of trials"):
+        read_tool_folder(root)
+
+
+def test_trials_one_folder_below_are_named(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "subject", ("walk.trc", "gait/walk.trc"), ("leg.osim", "models/leg.osim"))
+    with pytest.raises(InputError, match=r"is no folder of trials; .*: perhaps \S*subject/gait/$"):
+        read_tool_folder(root)

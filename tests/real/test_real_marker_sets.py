@@ -14,6 +14,7 @@ import geocontact as gc
 from geocontact.analyses.motion.naming import named_markers, recognised
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.markers import read_markers
+from geocontact.io.opensim.marker_weights import read_marker_weights
 from geocontact.io.opensim.osim_multibody import read_multibody
 
 pytestmark = pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
@@ -21,6 +22,7 @@ SETS = {
     "bmclab_gait_c3d/Gait.c3d": "helen-hayes 22 of 22",
     "opensim_walk/subject01_static.trc": "cleveland 49 of 49",
     "opensim_walk/subject01_walk1.trc": "cleveland 41 of 49",
+    "opensim_walk/markers_walk.trc": "rajagopal-walk 41 of 43",
     "c3d_variety/Eb015pr.c3d": "cast-clusters 26 of 28",
     "gc6_dm_knee/gait/DM_ngait_og1_new.trc": "grand-challenge 58 of 58",
     "gc4_jw_knee/c3d/jw_ngait_og3.c3d": "grand-challenge 48 of 58",
@@ -78,6 +80,67 @@ def test_a_walk_from_c3d_to_moments_without_a_marker_name(data_dir: Path, tmp_pa
     table = moments.tables()["forces"]
     residual = np.linalg.norm(table[[f"pelvis_t{axis}_force [N]" for axis in "xyz"]].to_numpy(), axis=1)
     assert np.median(residual) < 0.1 * 871.0, "N; 871 N is the largest plate force"
+
+
+def test_weights_of_gait2354_are_those_of_its_public_tasks(data_dir: Path, tmp_path: Path) -> None:
+    """The set-up of the walk's own example, read from its file; markers that were not recorded have no task here."""
+    walk = data_dir / "opensim_walk"
+    example = read_marker_weights(walk / "subject01_Setup_IK.xml")
+    model = walk / "subject01_simbody.osim"
+    made = gc.inverse_kinematics(walk / "subject01_walk1.trc", model=model, model_setup="auto", time=(0.4, 0.5))
+    tasks = made.seen.tasks
+    assert len(tasks.markers) >= 30
+    assert tasks.markers == {name: example.markers.get(name, 0.0) for name in tasks.markers}
+    assert tasks.coordinates == example.coordinates
+
+
+def test_the_set_up_of_gait2354_finds_the_size_of_the_model_that_it_once_made(data_dir: Path) -> None:
+    """subject01 was scaled by OpenSim with the same pairs from the same static trial: factors are 1."""
+    walk = data_dir / "opensim_walk"
+    made = gc.scale(walk / "subject01_static.trc", model=walk / "subject01_simbody.osim", model_setup="auto")
+    assert made.scale_factors == pytest.approx(dict.fromkeys(made.scale_factors, 1.0), abs=0.005)
+    assert len(made.scale_factors) == 12
+    assert made.rms < 0.008, "m"
+
+
+SETUPS = {
+    "opensim_walk/subject01_simbody.osim": ("gait2392", "3 of 5 measurements, 5 of 8 pairs", 13.5),
+    "opencap/LaiArnoldModified2017_contacts.osim": ("laiuhlrich", "5 of 11 measurements, 7 of 26 pairs", 10.6),
+}
+
+
+@pytest.mark.parametrize("file", SETUPS)
+def test_a_walk_from_c3d_to_moments_by_the_set_up_of_the_model(data_dir: Path, tmp_path: Path, file: str) -> None:
+    """Not one marker's name, pair or weight is typed, whatever the model's markers are called."""
+    walk, model = data_dir / "bmclab_gait_c3d" / "Gait.c3d", data_dir / file
+    name, covered, off = SETUPS[file]
+    axes, span = "-x,z,y", (1.38, 3.2)
+    made = gc.scale(walk, model=model, model_setup="auto", axes=axes, time=(2.0, 2.0), sizes_time=span, mass=70.0)
+    assert f"set-up {name}: {covered} were recorded" in made.sentences
+    assert any("in their stead" in line for line in made.warnings)
+    seen = _raw(walk)
+    own = [_location(model, label) for label in OWN_ASIS[name]]
+    measured = np.linalg.norm(seen["RASI"] - seen["LASI"], axis=1)[138:321]
+    assert made.scale_factors["pelvis"] == pytest.approx(
+        np.nanmean(measured) / np.linalg.norm(own[0] - own[1]), rel=1e-6
+    )
+    scaled = made.write(tmp_path / "s") / "scaled.osim"
+    angles = gc.inverse_kinematics(walk, model=scaled, axes=axes, time=span, model_setup=name)
+    assert 1e3 * angles.rms == pytest.approx(off, abs=0.5), "mm, each marker alike; weights are the set-up's"
+    moments = gc.inverse_dynamics(
+        angles.write(tmp_path / "a") / "ik.mot",
+        model=scaled,
+        plates=walk,
+        plate=("1=calcn_l", "2=calcn_r"),
+        axes=axes,
+        time=(2.25, 3.0),
+    )
+    table = moments.tables()["forces"]
+    residual = np.linalg.norm(table[[f"pelvis_t{axis}_force [N]" for axis in "xyz"]].to_numpy(), axis=1)
+    assert np.median(residual) < 0.12 * 871.0, "N; 871 N is the largest plate force"
+
+
+OWN_ASIS = {"gait2392": ("R.ASIS", "L.ASIS"), "laiuhlrich": ("r.ASIS_study", "L.ASIS_study")}
 
 
 def _doubts_of_a_walk(warned: tuple[str, ...]) -> None:

@@ -73,3 +73,21 @@ def test_static_and_walk_side_by_side(data_dir: Path, tmp_path: Path) -> None:
     assert (scale.trial, walk.trial, scale.warnings) == ("subject01_static", "subject01_walk1", ())
     result = call("ik", root, "--out", out, folder=out)
     assert result.code == 0 and (out / "ik.mot").is_file()
+
+
+def test_the_walk_of_gait2354_as_its_repository_has_it(data_dir: Path, tmp_path: Path) -> None:
+    """Motion, model and loads are found beside the markers; they were left out, and gravity alone acted."""
+    walk = data_dir / "opensim_walk"
+    done(call("id", walk, "--time", "0.5:0.8", "--out", tmp_path / "folder"))
+    model, loads = walk / "subject01_simbody.osim", walk / "subject01_walk1_grf.xml"
+    typed = ("--model", model, "--loads", loads, "--time", "0.5:0.8", "--out", tmp_path / "typed")
+    done(call("id", walk / "subject01_walk1_ik.mot", *typed))
+    ours, theirs = (tmp_path / name / "id.sto" for name in ("folder", "typed"))
+    assert ours.read_bytes() == theirs.read_bytes()
+
+
+def test_folders_of_a_model_and_its_motions(data_dir: Path) -> None:
+    """A shoulder and OpenCap's example: motions without markers are trials."""
+    shoulder = [one.trial for one in folder_inputs("markers", data_dir / "rmr_shoulder")]
+    assert shoulder == ["ABD01", "ABD02", "ABD03", "FLX01", "FLX02", "SHRUG01"]
+    assert len(folder_inputs("id", data_dir / "opencap")) == 2

@@ -316,8 +316,14 @@ def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str],
 
 
 def _refuse_unused_plates(trial: FolderTrial) -> None:
-    """InputError where the trial's .c3d holds force plates, of which the folder does not say what stands on them."""
-    if trial.loads is not None or trial.markers is None or trial.markers.suffix.lower() != ".c3d":
+    """InputError where the trial has forces of the ground, of which the folder does not say what stands there."""
+    if trial.loads is not None:
+        return
+    if trial.forces is not None:
+        what = "holds forces of the ground, and the folder does not say on which bodies they act"
+        remedy = f"give `loads` (OpenSim's .xml), or `plates` {trial.forces} `plate` NAME=calcn_r"
+        raise InputError(trial.forces, "", what, remedy)
+    if trial.markers is None or trial.markers.suffix.lower() != ".c3d":
         return
     count = sum(name.startswith("force_") for name in read_c3d_plates(trial.markers))
     if count:

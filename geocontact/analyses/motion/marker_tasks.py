@@ -14,7 +14,6 @@ import numpy as np
 
 from geocontact.analyses.frame.collector import add_input, current, reserve
 from geocontact.analyses.frame.quantities import named_file, number
-from geocontact.analyses.motion.naming import Naming
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import Followed, MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -140,9 +139,9 @@ def marker_tasks(
     follow: Path | None = None,
     weight: tuple[str, ...] = (),
     hold: tuple[str, ...] = (),
-    naming: Naming | None = None,
+    known: MarkerTasks | None = None,
 ) -> MarkerTasks:
-    """Weights of the task file, of a marker set known by name, or 1 for every marker; then what single options say.
+    """Weights of the task file, those that are `known`, or 1 for every marker; then what single options say.
 
     `follow` is the recording that tasks of the kind from_file keep coordinates near.
     """
@@ -151,19 +150,19 @@ def marker_tasks(
             str(current().options["model"]), "", "has no markers", "give a model with a MarkerSet, or `marker_set`"
         )
     if file is None:
-        tasks = MarkerTasks({m.name: 1.0 for m in model.markers} if naming is None else naming.weights)
+        tasks = known or MarkerTasks({m.name: 1.0 for m in model.markers})
     else:
         tasks = read_marker_weights(file)
         add_input("`tasks`", file, markers=len(tasks.markers), coordinates=len(tasks.coordinates))
         if (named := tasks_file(file)) != file:
             add_input("tasks that it names", named)
-    known = {c.name for c in model.coordinates}
+    coordinates = {c.name for c in model.coordinates}
     markers = {**tasks.markers, **weights_typed(weight, {m.name for m in model.markers}, "R.Heel=10")}
     wanted = held_near(model, hold)
     _refuse_strangers(model, seen, markers)
     weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
     _warn(model, seen, markers, [*weighed, *tasks.from_file])
-    near = {name: by for name, by in tasks.from_file.items() if name in known and name not in wanted}
+    near = {name: by for name, by in tasks.from_file.items() if name in coordinates and name not in wanted}
     followed = _followed(model, seen, near, file, follow)
     return MarkerTasks(markers, {**tasks.coordinates, **wanted}, near, followed)
 

@@ -44,9 +44,11 @@ MEASURES = {
     "tibia": (("knee_centre", "ankle_centre"), ("knee_lateral", "ankle_lateral")),
     "calcn": (("heel", "metatarsal_2"), ("heel", "toe_tip"), ("heel", "metatarsal_5")),
     "torso": (("c7", "sacrum"), ("acromion", "asis")),
+    "humerus": (("shoulder_centre", "elbow_lateral"), ("acromion", "elbow_lateral")),
+    "ulna": (("elbow_lateral", "wrist_radial"),),
 }
 """Places whose distance measures a segment, the best pair first."""
-GROWS_ALONG = {"femur": ("femur", "patella"), "calcn": ("talus", "calcn", "toes"), "torso": ("torso",)}
+GROWS_ALONG = {"femur": ("femur", "patella"), "calcn": ("talus", "calcn", "toes"), "ulna": ("ulna", "radius", "hand")}
 
 
 @dataclass(frozen=True)
@@ -268,7 +270,7 @@ def _marker_of(
     if where in own:
         return replace(own[where], name=label), own[where].name
     place, body = PLACES[where[0]], _body(*where)
-    if same is not None and same.body == body:
+    if same is not None and same.body == ("torso" if body == "head" and body not in sizes else body):
         return same, "the same name"
     if body not in sizes:
         return None, f"not used: no body {body}"

@@ -90,6 +90,7 @@ PLACES: Mapping[str, Place] = {
     "incisura": Place("incisura jugularis", "torso", (0.045, 0.355, 0.0)),
     "sternum": Place("sternum", "torso", (0.1, 0.31, 0.0)),
     "xiphoid": Place("xiphoid process", "torso", (0.115, 0.22, 0.0)),
+    "clavicle": _soft("medial end of the clavicle", "torso"),
     "back_offset": _soft("scapula, to mark the right side", "torso"),
     "neck": _soft("middle of the shoulder joint centres", "torso", (-0.01, 0.37, 0.0)),
     "shoulder_centre": Place("shoulder joint centre", "torso", (-0.005, 0.365, 0.165)),

@@ -82,6 +82,15 @@ _GRAND = {
     for body, place in (("Thigh", "thigh_cluster"), ("Shank", "shank_cluster"))
     for where in ("Superior", "Inferior", "Lateral")
 }
+_CORTEX = {
+    "{s}.ASIS": "asis",
+    "{s}.PSIS": "psis",
+    "{s}.Knee": "knee_lateral",
+    "{s}.Knee.Medial": "knee_medial",
+    "{s}.Ankle": "ankle_lateral",
+    "{s}.Ankle.Medial": "ankle_medial",
+    "{s}.Heel": "heel",
+}
 _OPENCAP = {
     f"{{s}}{name}study": place
     for name, place in {
@@ -219,7 +228,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
     ),
     "ior": MarkerSet(
         "Istituto Ortopedico Rizzoli, lower limb",
-        "Leardini et al. 2007; labels from the paper, no public file was compared",
+        "Leardini et al. 2007; labels of the paper, those of the leg as in BMClab's BiomecII2018_gait_n.txt",
         {
             "{s}ASIS": "asis",
             "{s}PSIS": "psis",
@@ -238,7 +247,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
     ),
     "ior-qualisys": MarkerSet(
         "Istituto Ortopedico Rizzoli, labels of Qualisys",
-        "Leardini et al. 2007; labels of Qualisys' project for gait, no public file was compared",
+        "Leardini et al. 2007; labels of Qualisys' project for gait, their codes as in the list of RRIS40",
         {
             "{s}_IAS": "asis",
             "{s}_IPS": "psis",
@@ -253,6 +262,71 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
             "{s}_FM1": "metatarsal_1",
             "{s}_FM2": "metatarsal_2",
             "{s}_FM5": "metatarsal_5",
+        },
+    ),
+    "ior-bmclab": MarkerSet(
+        "Istituto Ortopedico Rizzoli, labels of BMClab in Cortex",
+        "Leardini et al. 2007; BMClab's public walk.trc, the protocol of Fukuchi et al. 2018",
+        {
+            **_CORTEX,
+            "{s}.Iliac.Crest": "sacrum_cluster",
+            "{s}.GTR": "trochanter",
+            "{s}.HF": "fibula_head",
+            "{s}.TT": "tuberosity",
+            "{s}.MT1": "metatarsal_1",
+            "{s}.MT2": "metatarsal_2",
+            "{s}.MT5": "metatarsal_5",
+        },
+    ),
+    "helen-hayes-cortex": MarkerSet(
+        "Helen Hayes, labels of Motion Analysis' Cortex",
+        "Kadaba et al. 1990; labels of Cortex as public readers of .trc list them, medial ones as in BMClab's walk.trc",
+        {
+            **_CORTEX,
+            "V.Sacral": "sacrum",
+            "{s}.Thigh": "thigh_wand",
+            "{s}.Shank": "shank_wand",
+            "{s}.Toe": "metatarsal_2",
+            "{s}.Foot": "foot_cluster",
+            "Top.Head": "head",
+            "{s}.Shoulder": "acromion",
+            "{s}.Bicep": "arm",
+            "{s}.Elbow": "elbow_lateral",
+            "{s}.ForeArm": "forearm",
+            "{s}.Radius": "wrist_radial",
+            "{s}.Ulna": "wrist_ulnar",
+            "{s}.Thumb": "hand",
+            "{s}.Pinky": "hand",
+        },
+    ),
+    "rris40": MarkerSet(
+        "RRIS40, full body",
+        "Rehabilitation Research Institute of Singapore; public list rris40, markers.md",
+        {
+            "{s}ASIS": "asis",
+            "{s}PSIS": "psis",
+            "{s}FLE": "knee_lateral",
+            "{s}FME": "knee_medial",
+            "{s}FAL": "ankle_lateral",
+            "{s}TAM": "ankle_medial",
+            "{s}FCC": "heel",
+            "{s}FMT1": "metatarsal_1",
+            "{s}FMT2": "metatarsal_2",
+            "{s}FMT5": "metatarsal_5",
+            "{s}ACR": "acromion",
+            "{s}HLE": "elbow_lateral",
+            "{s}HME": "elbow_medial",
+            "{s}RSP": "wrist_radial",
+            "{s}USP": "wrist_ulnar",
+            "{s}CAP": "hand",
+            "{s}HMC2": "hand",
+            "{s}TEMP": "head",
+            "{s}HEAD": "head",
+            "C7": "c7",
+            "T8": "t8",
+            "T10": "t10",
+            "STER": "incisura",
+            "XPRO": "xiphoid",
         },
     ),
     "opencap": MarkerSet(
@@ -301,10 +375,34 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
             "{s}ACR": "acromion",
             "{s}LEL": "elbow_lateral",
             "{s}MEL": "elbow_medial",
+            "{s}SJC": "shoulder_centre",
+            "{s}EJC": "elbow_centre",
+            "{s}FAradius": "wrist_radial",
+            "{s}FAulna": "wrist_ulnar",
             "C7": "c7",
             "CLAV": "incisura",
+            **{f"{{s}}UA{k}": "arm" for k in (1, 2, 3)},
             **{f"{{s}}TH{k}": "thigh_cluster" for k in (1, 2, 3)},
             **{f"{{s}}TB{k}": "shank_cluster" for k in (1, 2, 3)},
+        },
+    ),
+    "rajagopal-walk": MarkerSet(
+        "Walk of Rajagopal 2016, with clusters, labels of Cortex",
+        "Rajagopal et al. 2016; labels of markers_walk.trc, example3DWalking of opensim-core, with the toe's "
+        "marker 0.3 m from the heel's",
+        {
+            **{label: place for label, place in _CORTEX.items() if "Medial" not in label},
+            "S2": "sacrum",
+            "{s}.Toe": "toe_tip",
+            "{s}.MT5": "metatarsal_5",
+            "{s}.Shoulder": "acromion",
+            "{s}.Clavicle": "clavicle",
+            "{s}.Biceps": "arm",
+            "{s}.Elbow": "elbow_lateral",
+            "{s}.Forearm": "forearm",
+            "{s}.Wrist": "wrist",
+            **{f"{{s}}.TH{k}": "thigh_cluster" for k in range(1, 5)},
+            **{f"{{s}}.SH{k}": "shank_cluster" for k in range(1, 5)},
         },
     ),
     "cast-clusters": MarkerSet(

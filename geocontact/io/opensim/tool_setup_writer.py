@@ -94,6 +94,7 @@ def write_scale_setup(
     by_volume: bool,
     place: bool,
     out: str,
+    measured: Sequence[str] = (),
 ) -> None:
     """Scaling by these factors along the axes of each body, then the static pose of a .trc file.
 
@@ -109,16 +110,22 @@ def write_scale_setup(
         Whether markers move to where they were seen.
     out
         Name of the model that OpenSim writes.
+    measured
+        Bodies and pairs of markers, femur_r:y=R.Hip/R.Knee, by which OpenSim measures the factors itself, in place of
+        these numbers.
     """
     root, tool = _tool("ScaleTool", path)
     _texts(tool, mass="-1" if mass is None else f"{mass:.12g}")
     maker, scaler, placer = (SubElement(tool, name) for name in ("GenericModelMaker", "ModelScaler", "MarkerPlacer"))
     _texts(maker, model_file=model, marker_set_file=marker_set or NONE)
-    _texts(scaler, apply="true", scaling_order="manualScale")
-    sizes = SubElement(SubElement(scaler, "ScaleSet"), "objects")
-    for body, by in factors.items():
-        numbers = " ".join(f"{each:.17g}" for each in by)
-        _texts(SubElement(sizes, "Scale"), scales=numbers, segment=body, apply="true")
+    _texts(scaler, apply="true", scaling_order="measurements" if measured else "manualScale")
+    if measured:
+        _measurements(scaler, measured)
+    else:
+        sizes = SubElement(SubElement(scaler, "ScaleSet"), "objects")
+        for body, by in factors.items():
+            numbers = " ".join(f"{each:.17g}" for each in by)
+            _texts(SubElement(sizes, "Scale"), scales=numbers, segment=body, apply="true")
     _texts(
         scaler,
         marker_file=markers,
@@ -130,6 +137,22 @@ def write_scale_setup(
     _tasks(placer, tasks)
     _texts(placer, marker_file=markers, time_range=_span(span), output_model_file=out, max_marker_movement="-1")
     _write(root, path)
+
+
+def _measurements(scaler: Element, measured: Sequence[str]) -> None:
+    """A measurement for each text."""
+    found = SubElement(SubElement(scaler, "MeasurementSet"), "objects")
+    for text in measured:
+        bodies, _, pairs = text.partition("=")
+        each = SubElement(found, "Measurement", name=bodies.replace(",", "_").replace(":", "_"))
+        _texts(each, apply="true")
+        ends = SubElement(SubElement(each, "MarkerPairSet"), "objects")
+        for pair in pairs.split(","):
+            _texts(SubElement(ends, "MarkerPair"), markers=pair.replace("/", " "))
+        scaled = SubElement(SubElement(each, "BodyScaleSet"), "objects")
+        for body in bodies.split(","):
+            name, _, axes = body.partition(":")
+            _texts(SubElement(scaled, "BodyScale", name=name), axes=" ".join(axes.upper() or "XYZ"))
 
 
 def _tool(name: str, path: Path) -> tuple[Element, Element]:

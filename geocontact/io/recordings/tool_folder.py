@@ -8,7 +8,8 @@ Layouts, each seen in public repositories:
   MarkerData/TRIAL.trc, ID/TRIAL_external_forces.xml, here or in results or osim_results; _subject.json beside them.
 - Pose2Sim project (perfanalytics/pose2sim): Config.toml; in each trial's folder pose-3d/*.trc, raw, filtered and
   augmented, and kinematics/*.osim, *.mot.
-- trials of a laboratory: .trc or .c3d files of standing and of moving side by side, perhaps a model and its motions.
+- trials of a laboratory: .trc or .c3d files of standing and of moving side by side, perhaps a model, its motions and
+  their loads, TRIAL_grf.xml (opensim-org/opensim-models); or a model and its motions alone.
 
 Nothing is read here but names, and mass and height of the person.
 """
@@ -72,7 +73,8 @@ class FolderTrial:
     """Files of one trial.
 
     `model` is one of its own, `static` whether its name says that somebody stands, `rival` a second file of its
-    markers, which leaves it open which is meant.
+    markers, which leaves it open which is meant; `forces` is a table of ground reactions, which does not say on which
+    bodies they act.
     """
 
     name: str
@@ -83,6 +85,7 @@ class FolderTrial:
     static: bool = False
     note: str = ""
     rival: Path | None = None
+    forces: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -125,9 +128,12 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
             return replace(found, unused=_count_of_others(found))
     if any(file.suffix.lower() == ".b3d" for file in _files(root)):
         raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
-    raise InputError(
-        root, "", "is no folder of trials", "name one of OpenCap, AddBiomechanics or Pose2Sim, or one with .trc or .c3d"
+    inside = sorted({file.parent for file in _files(root) if file.suffix.lower() in (".trc", ".c3d")})
+    names = listed(tuple(f"{place.as_posix()}/" for place in inside))
+    remedy = (
+        "name one of OpenCap, AddBiomechanics or Pose2Sim, or one with .trc or .c3d, or with a model and its motions"
     )
+    raise InputError(root, "", "is no folder of trials", f"{remedy}{f': perhaps {names}' if names else ''}")
 
 
 B3D = (
@@ -221,21 +227,31 @@ def _rank(stem: str, augmented: bool) -> int:
 
 def _laboratory(root: Path) -> ToolFolder | None:
     recorded, exported = _by_stem(root, ".c3d"), _by_stem(root, ".trc")
-    markers = {**exported, **recorded}
-    if not markers:
+    markers, models = {**exported, **recorded}, tuple(_named(root, ".osim"))
+    forces = {name: file for tail in FORCES for name, file in _by_stem(root, ".mot", tail).items()}
+    others = {name: file for name, file in _by_stem(root, ".mot").items() if file not in forces.values()}
+    motions = {**others, **_by_stem(root, ".mot", "_ik")}
+    names = markers or ({file.stem.removesuffix("_ik") for file in others.values()} if models else {})
+    if not names:
         return None
-    motions = {**_by_stem(root, ".mot"), **_by_stem(root, ".mot", "_ik")}
+    loads = {name: file for tail in FORCES for name, file in _by_stem(root, ".xml", tail).items()}
     trials = [
         FolderTrial(
             name,
-            file,
+            markers.get(name),
             motions.get(name),
+            loads.get(name),
             static=_is_static(name),
             rival=exported.get(name) if name in recorded else None,
+            forces=forces.get(name),
         )
-        for name, file in markers.items()
+        for name in sorted(names)
     ]
-    return ToolFolder(TRIALS, root, tuple(sorted(trials, key=lambda t: t.name)), tuple(_named(root, ".osim")))
+    return ToolFolder(TRIALS, root, tuple(trials), models)
+
+
+FORCES = ("_external_loads", "_external_forces", "_forces", "_grf", "_GRF")
+"""Ends of names of loads: OpenSim's external loads (.xml), ground reactions alone (.mot); the last one counts."""
 
 
 def _is_static(name: str) -> bool:
@@ -280,7 +296,7 @@ def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
 def _count_of_others(found: ToolFolder) -> int:
     used = {*found.models[:1], *found.generic[:1]} | ({found.person.file} if found.person else set())
     for trial in found.trials:
-        own = (trial.markers, trial.rival, trial.coordinates, trial.loads, trial.model)
+        own = (trial.markers, trial.rival, trial.coordinates, trial.loads, trial.model, trial.forces)
         used |= {each for each in own if each is not None}
     return sum(file not in used for file in _files(found.root))
 

@@ -37,6 +37,9 @@ class IkOptions(Options):
     naming
         Recorded markers known by their marker set: auto recognises it from the labels, or its name (plug-in-gait,
         helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table.
+    model_setup
+        Set-up of a public full-body model: weights of markers. auto knows the model by its name or bodies; or
+        gait2392, hamner, rajagopal, laiuhlrich. Includes `naming` auto.
     weight
         Weight of a marker over that of `tasks`, of a segment's orientation or its origin: R.Heel=10, pelvis_origin=0;
         0 leaves it out. May be given again.
@@ -97,6 +100,7 @@ class IkOptions(Options):
     marker_set: Path | None = None
     markers_map: str | None = None
     naming: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
+    model_setup: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
     weight: Texts = ()
     hold: Texts = ()
     fill: Annotated[float, GAP] = 0.1

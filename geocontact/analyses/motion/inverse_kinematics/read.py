@@ -17,7 +17,8 @@ from geocontact.analyses.motion.inverse_kinematics.segments import (
 )
 from geocontact.analyses.motion.marker_tasks import marker_tasks, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
-from geocontact.analyses.motion.naming import Naming, named_markers
+from geocontact.analyses.motion.model_setup import known_setup, setup_tasks
+from geocontact.analyses.motion.naming import AUTO, Naming, named_markers
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.markers import MarkerTasks, MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
@@ -64,18 +65,23 @@ def read(o: IkOptions) -> KinematicsInputs:
     model = with_marker_set(model, o.model, o.marker_set)
     knees = knees_of(o.knee, model)
     seen = renamed(markers_given(o.markers, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    naming = None if o.naming is None else named_markers(model, seen, o.naming)
+    known = None if o.model_setup is None else known_setup(model, o.model_setup)
+    asked = AUTO if known is not None and o.naming is None else o.naming
+    naming = None if asked is None else named_markers(model, seen, asked)
     model = model if naming is None else naming.model
     add_input("markers", o.markers, frames=len(seen), markers=len(seen.names))
     analog = _analog(o)
     doubts = check_trial(TrialInputs(markers=seen, turn=turn_of(o.axes), channels=_channels(analog)))
     strikes, offs = strikes_and_offs(events_given(o.events, o.markers), o.markers.stem)
-    tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold, naming)
+    weights = None if naming is None else MarkerTasks(naming.weights)
+    if naming is not None and known is not None:
+        weights = setup_tasks(known, naming, standing=False)
+    tasks = marker_tasks(model, seen, o.tasks, o.follow, o.weight, o.hold, weights)
     return KinematicsInputs(model, seen, tasks, knees, strikes, offs, analog, doubts, naming)
 
 
 OF_SEGMENTS = ("calibration", "heading")
-OF_MARKERS = ("tasks", "marker_set", "naming")
+OF_MARKERS = ("tasks", "marker_set", "naming", "model_setup")
 """Options that mean nothing of the other."""
 
 

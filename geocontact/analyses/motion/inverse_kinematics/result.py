@@ -181,7 +181,7 @@ class IkResult(Result):
         """With which OpenSim's own tool finds the same."""
         o, seen = self.options, self.seen
         model = seen_from_results(o.model)
-        if o.marker_set is not None or o.naming is not None:  # OpenSim's tool takes the model's own markers only
+        if o.marker_set is not None or seen.naming is not None:  # OpenSim's tool takes the model's own markers only
             model = "model.osim"
             write_scaled_model(o.model, folder / model, seen.model, {})
         write_trc(folder / "seen.trc", seen.markers)

@@ -13,7 +13,8 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial, standing_on
 from geocontact.analyses.motion.marker_tasks import marker_tasks, names_told, renamed
 from geocontact.analyses.motion.markers import markers_given, turn_of, with_marker_set
-from geocontact.analyses.motion.naming import Naming, named_markers
+from geocontact.analyses.motion.model_setup import KnownSetup, known_setup, setup_measures, setup_tasks
+from geocontact.analyses.motion.naming import AUTO, Naming, named_markers
 from geocontact.analyses.motion.scale.measured_lengths import doubt_lengths
 from geocontact.analyses.motion.scale.options import ScaleOptions
 from geocontact.data.errors import InputError
@@ -32,7 +33,8 @@ MOVED = 0.02
 class Standing:
     """A model, a static trial and its mean as one frame, factors by body, and what each marker counts.
 
-    `naming` is the marker set that is known by name.
+    `naming` is the marker set that is known by name, `known` the set-up of the model; `measured` are the pairs of
+    markers that gave the factors, as `scale` takes them.
     """
 
     model: Multibody
@@ -41,6 +43,8 @@ class Standing:
     factors: Factors
     tasks: MarkerTasks
     naming: Naming | None = None
+    known: KnownSetup | None = None
+    measured: tuple[str, ...] = ()
 
 
 def read(o: ScaleOptions) -> Standing:
@@ -49,7 +53,9 @@ def read(o: ScaleOptions) -> Standing:
     add_input("`model`", o.model, bodies=len(model.bodies), markers=len(model.markers))
     model = with_marker_set(model, o.model, o.marker_set)
     whole = renamed(markers_given(o.static, o.axes, o.time, o.c3d_unit), model, o.markers_map)
-    naming = None if o.naming is None else named_markers(model, whole, o.naming)
+    known = None if o.model_setup is None else known_setup(model, o.model_setup)
+    asked = AUTO if known is not None and o.naming is None else o.naming
+    naming = None if asked is None else named_markers(model, whole, asked)
     model = model if naming is None else naming.model
     on = standing_on(whole, o.static, turn_of(o.axes), o.c3d_unit)
     check_trial(
@@ -57,11 +63,22 @@ def read(o: ScaleOptions) -> Standing:
     )
     seen = _standing(whole)
     add_input("static", o.static, frames=len(whole), markers=len(seen.names))
-    texts = o.scale if o.scale or naming is None else naming.measures
+    texts = o.scale if o.scale or naming is None else _known_pairs(naming, known)
     measured = _measured(o, model, whole, texts)
     factors = factors_told(model, measured, texts)
     doubt_lengths(model, measured, texts, named=naming is not None and not o.scale)
-    return Standing(model, whole, seen, factors, marker_tasks(model, seen, o.tasks, naming=naming), naming)
+    tasks = marker_tasks(model, seen, o.tasks, known=_known_tasks(naming, known))
+    return Standing(model, whole, seen, factors, tasks, naming, known, texts)
+
+
+def _known_pairs(naming: Naming, known: KnownSetup | None) -> tuple[str, ...]:
+    return naming.measures if known is None else setup_measures(known, naming)
+
+
+def _known_tasks(naming: Naming | None, known: KnownSetup | None) -> MarkerTasks | None:
+    if naming is None:
+        return None
+    return MarkerTasks(naming.weights) if known is None else setup_tasks(known, naming, standing=True)
 
 
 def _measured(

@@ -33,6 +33,9 @@ class ScaleOptions(Options):
         Recorded markers known by their marker set: auto recognises it from the labels, or its name (plug-in-gait,
         helen-hayes, opencap, …). The model's markers take the recording's labels, missing ones are placed from a table,
         and without `scale` the set's pairs measure the bodies.
+    model_setup
+        Set-up of a public full-body model: pairs of markers that measure each segment, weights of markers. auto knows
+        the model by its name or bodies; or gait2392, hamner, rajagopal, laiuhlrich. Includes `naming` auto.
     mass
         Mass of the subject [kg], shared among the bodies as in the model.
     mass_by_volume
@@ -66,6 +69,7 @@ class ScaleOptions(Options):
     marker_set: Path | None = None
     markers_map: str | None = None
     naming: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
+    model_setup: Annotated[str | None, Excludes("markers_map"), Excludes("tasks")] = None
     mass: Annotated[float | None, MASS] = None
     mass_by_volume: bool = False
     sizes: Path | None = None

@@ -138,7 +138,14 @@ class ScaleResult(Result):
             by_volume=o.mass_by_volume,
             place=not o.keep_markers,
             out="opensim_scaled.osim",
+            measured=standing.measured if self._by_known_pairs() else (),
         )
+
+    def _by_known_pairs(self) -> bool:
+        """Whether a set-up's pairs gave the factors, in the static trial, and by names that OpenSim's tool can read."""
+        o, texts = self.options, self.standing.measured
+        alone = self.standing.known is not None and not o.scale and o.sizes is None and o.sizes_time is None
+        return alone and bool(texts) and not any(" " in text for text in texts)
 
 
 def run(given: Standing, o: ScaleOptions) -> ScaleResult:
