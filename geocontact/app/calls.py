@@ -12,6 +12,7 @@ from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
 from geocontact.analyses.frame.options import Options, declared
+from geocontact.app.fields import BEFORE, Form
 from geocontact.cli.command import FORMS, command_of, spelling
 from geocontact.cli.folders import OUT, calls_in_folder
 from geocontact.cli.main import app, refusal
@@ -50,6 +51,19 @@ def _calls(words: Sequence[str]) -> list[list[str]]:
         tokens = with_setup(words)
         found = calls_in_folder(tokens, spelling)
     return [each.tokens for each in found] or [tokens]
+
+
+def expanded(form: Form, out: Path | str) -> Form:
+    """The form with the inputs that a set-up file or a folder stands for, those of its first trial.
+
+    Raises
+    ------
+    InputError, OSError
+        For a set-up file or a folder that cannot be used.
+    """
+    if not any(one.name in BEFORE for one in form.fields):
+        return form
+    return Form.of_words(_calls(form.words(out))[0])
 
 
 def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:

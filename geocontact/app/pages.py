@@ -169,9 +169,11 @@ def free_folder(folder: Path, command: str) -> Path:
 
 
 def earlier_runs(folder: Path) -> list[Run]:
-    """Results of earlier windows, the latest ones first."""
-    found = sorted(folder.glob(f"*/{RECORD}"), key=lambda file: file.stat().st_mtime, reverse=True)
-    return [Run([], file.parent, file.parent.name, state="done") for file in found[:MOST_RECENT]]
+    """Results of earlier windows, the latest ones first; trials of a folder have theirs in a folder each."""
+    records = [*folder.glob(f"*/{RECORD}")]
+    records += [file for file in folder.glob(f"*/*/{RECORD}") if not (file.parent.parent / RECORD).exists()]
+    found = sorted((file.parent for file in records), key=lambda out: (out / RECORD).stat().st_mtime, reverse=True)
+    return [Run([], out, out.relative_to(folder).as_posix(), state="done", earlier=True) for out in found[:MOST_RECENT]]
 
 
 def _begin(title: str) -> None:
@@ -213,13 +215,13 @@ def _to_form(shared: Shared, main: Element, command: str, words: str, sampled: b
 
 
 def _recent(queue: Queue) -> None:
-    done = [run for run in reversed(queue.runs) if run.page is not None][:MOST_RECENT]
+    done = [page for run in reversed(queue.runs) for page in run.pages.items()][:MOST_RECENT]
     if not done:
         text("p", "None yet.")
     with element("ul"):
-        for run in done:
+        for name, address in done:
             with element("li"):
-                link(run.out.name, run.address, target="_blank")
+                link(name, address, target="_blank")
 
 
 def _run_before(queue: Queue, command: str) -> None:
