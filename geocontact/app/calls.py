@@ -12,7 +12,7 @@ from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
 from geocontact.analyses.frame.options import Options, declared
-from geocontact.app.fields import BEFORE, Form
+from geocontact.app.fields import BEFORE, PROGRAM, Form
 from geocontact.cli.command import FORMS, command_of, spelling
 from geocontact.cli.folders import OUT, calls_in_folder
 from geocontact.cli.main import app, refusal
@@ -20,6 +20,7 @@ from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
 
 INDENT = "    "
+HELP = f"; see {PROGRAM} "
 WIDTH = 100
 WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite=False"}
 """Arguments of `Result.write`."""
@@ -71,7 +72,7 @@ def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, s
     try:
         return python_lines(words, command, out), ""
     except (CycloptsError, InputError, OSError) as error:
-        return "", " ".join(refusal(error).split())
+        return "", " ".join(refusal(error).split()).partition(HELP)[0]  # the help stands in the form
 
 
 def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 import subprocess
@@ -223,6 +224,25 @@ class Form:
 
     def _spelled(self, name: str) -> str:
         return next((one.spelled for one in self.fields if one.name == name), name)
+
+    def kept(self) -> str:
+        """What was filled in, for an address."""
+        return json.dumps({"values": self.values, "units": self.units}, ensure_ascii=False)
+
+    @classmethod
+    def of_kept(cls, command: str, kept: str) -> Form:
+        """The form of an address, which may be older than the fields or no such text at all."""
+        try:
+            found = json.loads(kept)
+            values, units = found["values"].items(), found["units"].items()
+        except (ValueError, KeyError, TypeError, AttributeError):
+            return cls(command)
+        kinds = {one.name: bool if one.kind == "flag" else str for one in fields_of(command)}
+        return cls(
+            command,
+            {name: value for name, value in values if isinstance(value, kinds.get(name, ()))},
+            {name: unit for name, unit in units if isinstance(unit, str)},
+        )
 
     @classmethod
     def of_words(cls, words: Iterable[str]) -> Form:

@@ -122,13 +122,13 @@ def add_pages(queue: Queue, outside: FastAPI) -> None:
         start_page(shared)
 
     @ui.page("/form/{slug}")
-    def _form(slug: str, sample: int = 0) -> None:
+    def _form(slug: str, sample: int = 0, filled: str = "") -> None:
         command = slug.replace(".", " ")
         if command not in samples.SAMPLES:
             raise HTTPException(404)
         _begin(command)
         with element("main"):
-            form_page(shared, command, bool(sample))
+            form_page(shared, command, bool(sample), filled)
 
 
 def start_page(shared: Shared) -> None:
@@ -146,11 +146,11 @@ def start_page(shared: Shared) -> None:
         _recent(queue)
 
 
-def form_page(shared: Shared, command: str, sampled: bool) -> None:
-    """The form of an analysis, filled with its sample where that is asked for."""
+def form_page(shared: Shared, command: str, sampled: bool, filled: str = "") -> None:
+    """The form of an analysis, filled with its sample where that is asked for, or with what an address keeps."""
     queue = shared.queue
-    form = Form(command)
-    if sampled:
+    form = Form.of_kept(command, filled)
+    if sampled and not filled:
         one = samples.sample(command, queue.folder)
         form = Form.of_words(one.words)
         for earlier in one.before:
@@ -159,7 +159,9 @@ def form_page(shared: Shared, command: str, sampled: bool) -> None:
     text("h1", command, tabindex="-1")
     text("p", summary(entry_of(command).load_options()))
     files = Path(f"{out}-files")
-    Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
+    place = Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
+    if filled:
+        place.take_up()
 
 
 def free_folder(folder: Path, command: str) -> Path:

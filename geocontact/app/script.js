@@ -29,4 +29,9 @@ const arrive = (address, title) => {
   scrollTo(0, 0);
   document.querySelector('h1')?.focus();
 };
+const keep = filled => {
+  const here = new URL(location);
+  here.search = new URLSearchParams({ filled });
+  history.replaceState(history.state, '', here);
+};
 addEventListener('popstate', () => location.reload());

@@ -22,6 +22,10 @@ from geocontact.cli.folders import OUT
 from geocontact.cli.main import refusal
 from geocontact.data.errors import InputError
 
+GO_TO_PAGES = (
+    "if (!document.activeElement.matches('input, select, textarea'))document.querySelector('.pages').scrollIntoView();"
+)
+"""Pages lie below a long form; whoever is typing in it stays there."""
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
 
@@ -50,7 +54,9 @@ class Workplace:
     ) -> None:
         self.queue, self.form, self.out = queue, form, out
         self.words: list[str] = []
+        self._named = form.command.split()
         self._dirty = True
+        self._kept = form.kept()
         self._panels: dict[int, RunPanel] = {}
         with element("div", "work"):
             with element("div", "fields"):
@@ -63,7 +69,12 @@ class Workplace:
         ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
 
     def run(self) -> None:
-        """A run of what is filled in; its results lie in a folder of their own."""
+        """A run of what is filled in, unless that is refused as it stands; its results lie in a folder of their own."""
+        _, wrong = calls.checked(self.form.words(self.out), self.form.command, self.out)
+        if wrong:
+            self.missing.text = self.view.refresh(wrong, only_touched=False)
+            self.view.go_to(wrong)
+            return
         run = self.queue.add_apart(self.form.words, self.out)
         self.words = run.words
         if run.out != self.out:
@@ -74,6 +85,14 @@ class Workplace:
         self._dirty = True
         self._look()
 
+    def take_up(self) -> None:
+        """Show the runs of this analysis that have ended, as before the page was loaded anew, and look at the files."""
+        of_this = [run for run in self.queue.runs if run.words[: len(self._named)] == self._named]
+        for run in of_this:
+            self._panels[run.number] = RunPanel(run, self)
+        self.words = of_this[-1].words if of_this else []
+        self.files.look_at_all()
+
     def show(self, name: str, address: str, beside: bool) -> None:
         """The page of a result in a frame of its own, in place of those that are shown, or beside the first one."""
         if not beside:
@@ -83,6 +102,7 @@ class Workplace:
         with self.pages, element("section"):
             text("h2", name)
             element("iframe", src=address, title=f"results in {name}", sandbox="allow-scripts allow-downloads")
+        ui.run_javascript(GO_TO_PAGES)
 
     def make_study(self) -> None:
         """Write the study that the form begins beside those that are there, and say how it is run."""
@@ -154,6 +174,9 @@ class Workplace:
         lines, wrong = calls.checked(words, self.form.command, self.out)
         self.python.text = lines or ("…" if wrong else "the command line only")
         self.missing.text = self.view.refresh(wrong)
+        if (kept := self.form.kept()) != self._kept:
+            self._kept = kept
+            ui.run_javascript(f"keep({json.dumps(kept)})")
 
 
 class RunPanel:

@@ -136,6 +136,14 @@ def test_every_unit_that_can_be_chosen_is_read(read: str) -> None:
         assert np.ravel(found) == pytest.approx([0.5 * factors[unit]], rel=1e-9), unit
 
 
+def test_an_address_keeps_a_form_and_a_foreign_one_is_an_empty_form() -> None:
+    form = Form("area", {"threshold": "1, 4", "pressure": True, "motion": "a b\n\u00e4&=%.csv"}, {"threshold": "cm"})
+    assert Form.of_kept("area", form.kept()) == form
+    foreign = '{"values": {"threshold": true, "pressure": "x", "gone": "1"}, "units": {"threshold": 1}}'
+    for text in ("", "[", "1", "[1]", '{"values": 1}', '{"values": {}, "units": []}', foreign):
+        assert Form.of_kept("area", text) == Form("area"), text
+
+
 def test_fields_without_effect_are_neither_enabled_nor_typed() -> None:
     form = Form("area", {"modulus": "500MPa"})
     field = next(one for one in form.fields if one.name == "modulus")
