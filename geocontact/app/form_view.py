@@ -81,7 +81,8 @@ class FieldRow:
     def _more(self) -> str:
         """Range and default."""
         parts = (self.one.usual, f"by default {self.one.default}" if self.one.default else "")
-        return "; ".join(part for part in parts if part)
+        more = "; ".join(part for part in parts if part)
+        return more[:1].upper() + more[1:]
 
     def _input(self) -> Element:
         one, value = self.one, self._form.value(self.one)

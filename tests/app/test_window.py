@@ -454,6 +454,28 @@ def test_a_mat_is_recognised_and_what_is_no_mesh_is_said_at_once(window: Window,
     tab.close()
 
 
+def test_a_field_for_one_file_takes_one_and_says_so(window: Window) -> None:
+    tab = window.tab("form/fit")
+    tab.evaluate("""() => { const data = new DataTransfer();
+      for (const name of ['a.stl', 'b.stl']) data.items.add(new File(['x'], name));
+      const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true });
+      document.querySelector('[name=mesh]').dispatchEvent(drop); }""")
+    until(tab, "document.querySelector('[name=mesh]').value.endsWith('a.stl')", 20.0)
+    said = tab.locator('.field:has([name="mesh"]) .failed').inner_text()
+    assert said == "b.stl was not taken: one file is asked for here"
+    tab.close()
+
+
+def test_a_window_that_was_ended_is_said(window: Window) -> None:
+    """In place of the words of the library, which wait for a server that never comes back at that address."""
+    tab = window.tab()
+    assert not tab.locator("#popup").is_visible()
+    tab.evaluate("window.socket.disconnect()")
+    tab.locator("#popup").wait_for(state="visible")
+    assert "start it again" in tab.locator("#popup").inner_text()
+    tab.close()
+
+
 def test_two_files_of_one_name_stay_two(window: Window, tmp_path: Path) -> None:
     """a/m.stl as moving and b/m.stl as fixed; a file that cannot be taken is said at its field."""
     tab = window.tab("form/area")
