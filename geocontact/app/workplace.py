@@ -69,9 +69,12 @@ class Workplace:
         ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
 
     def run(self) -> None:
-        """A run of what is filled in, unless that is refused as it stands; its results lie in a folder of their own."""
+        """A run of what is filled in, unless that is refused as it stands; its results lie in a folder of their own.
+
+        Runs that have not ended yet may write what it reads: then it waits for them before it is judged.
+        """
         _, wrong = calls.checked(self.form.words(self.out), self.form.command, self.out)
-        if wrong:
+        if wrong and all(run.over for run in self.queue.runs):
             self.missing.text = self.view.refresh(wrong, only_touched=False)
             self.view.go_to(wrong)
             return

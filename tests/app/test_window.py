@@ -6,6 +6,7 @@ import http.client
 import http.server
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -300,6 +301,18 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     assert files and tomllib.loads(files[-1].read_text("utf-8"))["options"]["limit"] in (8, "8")
     record = json.loads((window.folder / second.partition(":")[0] / "run.json").read_text("utf-8"))
     assert float(record["options"]["limit"]) == 8.0
+    tab.close()
+
+
+@pytest.mark.slow
+def test_a_sample_runs_behind_those_whose_results_it_reads(window: Window) -> None:
+    """Run is pressed before its recording is there, in a folder where no other test has made it."""
+    shutil.rmtree(samples.results_of("markers", window.folder), ignore_errors=True)
+    tab = window.tab("form/ik?sample=1")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    until(tab, "document.querySelectorAll('.run').length === 2", 20.0)
+    assert ": done" in ended(tab)
+    assert [": done" in each for each in tab.locator(".run strong").all_inner_texts()] == [True, True]
     tab.close()
 
 
