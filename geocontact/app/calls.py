@@ -12,6 +12,7 @@ from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
 from geocontact.analyses.frame.options import Options, declared
+from geocontact.app.fields import BEFORE, PROGRAM, Form
 from geocontact.cli.command import FORMS, command_of, spelling
 from geocontact.cli.folders import OUT, calls_in_folder
 from geocontact.cli.main import app, refusal
@@ -19,6 +20,7 @@ from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
 
 INDENT = "    "
+HELP = f"; see {PROGRAM} "
 WIDTH = 100
 WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite=False"}
 """Arguments of `Result.write`."""
@@ -52,12 +54,25 @@ def _calls(words: Sequence[str]) -> list[list[str]]:
     return [each.tokens for each in found] or [tokens]
 
 
+def expanded(form: Form, out: Path | str) -> Form:
+    """The form with the inputs that a set-up file or a folder stands for, those of its first trial.
+
+    Raises
+    ------
+    InputError, OSError
+        For a set-up file or a folder that cannot be used.
+    """
+    if not any(one.name in BEFORE for one in form.fields):
+        return form
+    return Form.of_words(_calls(form.words(out))[0])
+
+
 def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:
     """The call in Python, and what the command line would refuse at once, in its words; one of them is empty."""
     try:
         return python_lines(words, command, out), ""
     except (CycloptsError, InputError, OSError) as error:
-        return "", " ".join(refusal(error).split())
+        return "", " ".join(refusal(error).split()).partition(HELP)[0]  # the help stands in the form
 
 
 def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 import subprocess
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from types import UnionType
@@ -15,11 +16,15 @@ from typing import Any, Literal, Union, get_args, get_origin
 from geocontact.analyses.catalogue import Entry, entry_of
 from geocontact.analyses.frame.marks import Excludes, Missing, Requires, Spelled
 from geocontact.analyses.frame.options import Declared, declared
+from geocontact.cli import folders, opensim_setup
 from geocontact.cli.command import FORMS, RESULTS, argument, default, negative, option, speller
 from geocontact.cli.folders import OUT
 from geocontact.data.plausible import Plausible
 
 PROGRAM = "geocontact"
+SETUP, TRIAL = opensim_setup.OPTION.removeprefix("--"), folders.TRIAL.removeprefix("--")
+BEFORE = (SETUP, TRIAL)
+"""What the command line replaces by inputs and options before it reads them."""
 Kind = Literal["flag", "choice", "file", "files", "lines", "text"]
 UNITS_OF = {
     "length": ("mm", "cm", "m", "in"),
@@ -220,6 +225,25 @@ class Form:
     def _spelled(self, name: str) -> str:
         return next((one.spelled for one in self.fields if one.name == name), name)
 
+    def kept(self) -> str:
+        """What was filled in, for an address."""
+        return json.dumps({"values": self.values, "units": self.units}, ensure_ascii=False)
+
+    @classmethod
+    def of_kept(cls, command: str, kept: str) -> Form:
+        """The form of an address, which may be older than the fields or no such text at all."""
+        try:
+            found = json.loads(kept)
+            values, units = found["values"].items(), found["units"].items()
+        except (ValueError, KeyError, TypeError, AttributeError):
+            return cls(command)
+        kinds = {one.name: bool if one.kind == "flag" else str for one in fields_of(command)}
+        return cls(
+            command,
+            {name: value for name, value in values if isinstance(value, kinds.get(name, ()))},
+            {name: unit for name, unit in units if isinstance(unit, str)},
+        )
+
     @classmethod
     def of_words(cls, words: Iterable[str]) -> Form:
         """The form that words of the command line stand for; InputError is for who runs them."""
@@ -241,17 +265,39 @@ def fields_of(command: str) -> tuple[Field, ...]:
     """Fields of an analysis; options that its class sets itself have none."""
     known = declared(entry_of(command).load_options())
     spell = speller(known)
-    shown = [*(one for one in known if one.settable), *_of_every_command(entry_of(command).load_options().over_time)]
-    return tuple(Field(one, spell(one.words), spell(f"`{one.name}`")) for one in shown)
+    before = _of_before(command)
+    own = [_in_place(one, before) for one in known if one.settable]
+    shown = [*own, *_of_every_command(entry_of(command).load_options().over_time)]
+    found = [Field(one, spell(one.words), spell(f"`{one.name}`")) for one in shown]
+    inputs = sum(argument(each.one) for each in found)
+    return (*found[:inputs], *(Field(one, one.words, f"--{one.name}") for one in before), *found[inputs:])
+
+
+def _of_before(command: str) -> list[Declared]:
+    """What is asked before the options: a set-up file of OpenSim, trials of a folder."""
+    found = [(SETUP, Path, opensim_setup)] if command in opensim_setup.COMMANDS else []
+    if command in folders.COMMANDS:
+        found.append((TRIAL, tuple[str, ...], folders))
+    return [_asked(name, kind, place.HELP) for name, kind, place in found]
+
+
+def _in_place(one: Declared, before: Iterable[Declared]) -> Declared:
+    """An option, which has no effect where it is the recording and a set-up file names that."""
+    if argument(one) and one.required and any(each.name == SETUP for each in before):
+        return replace(one, rules=(*one.rules, Excludes(SETUP)))
+    return one
 
 
 def _of_every_command(over_time: bool) -> list[Declared]:
     """What the command line asks about the results of every analysis."""
     names = [name for name in FORMS if name != "netcdf" or over_time]
-    return [
-        Declared(name, bool, False, False, False, None, Spelled(), (), (), None, Missing(), FORMS[name], RESULTS)
-        for name in names
-    ]
+    return [_asked(name, bool, FORMS[name], False, RESULTS) for name in names]
+
+
+def _asked(name: str, kind: Any, words: str, default: Any = None, section: str = "") -> Declared:
+    """What the command line asks besides the options of an analysis."""
+    spelled = Spelled(each=name == TRIAL)
+    return Declared(name, kind, default is None, False, default, None, spelled, (), (), None, Missing(), words, section)
 
 
 def _commands() -> set[str]:

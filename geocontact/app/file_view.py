@@ -17,6 +17,12 @@ from geocontact.app.fields import Field
 from geocontact.app.files import Known, contents, known_file, page_name, write_page
 from geocontact.app.form_view import FieldRow, FormView
 
+FILL = (
+    "const e = document.querySelector(`[name=${{CSS.escape({name})}}]`); e.value = {value};"
+    "e.dispatchEvent(new Event('change', {{ bubbles: true }}));"
+)
+"""Fill in a value as a hand does."""
+
 
 class FileView:
     """Contents of the files that were filled in.
@@ -40,10 +46,15 @@ class FileView:
         self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())
         self._known: dict[Known, Content] = {}
         self._at_work = False
+        self._anew = False
+
+    def look_at_all(self) -> None:
+        """From now on look at files that nobody changed by hand as well."""
+        self._anew = True
 
     async def look(self) -> None:
         """Read files that are new, and show what they hold; nothing before a field for files was changed by hand."""
-        if self._at_work or not any(row.touched for row in self._rows.values()):
+        if self._at_work or not (self._anew or any(row.touched for row in self._rows.values())):
             return
         self._at_work = True
         try:
@@ -86,6 +97,8 @@ class FileView:
         with element("p"):
             text("strong", path.name)
             text("span", f": {content.kind or 'a file'}")
+            if one.kind == "files":
+                self._without(one, path)
         with element("ul"):
             for line in (*content.facts, *self._in_common(content)):
                 text("li", line)
@@ -99,13 +112,23 @@ class FileView:
                 self._offer(units, path, content)
                 self._picture(units, path)
 
+    def _without(self, one: Field, path: Path) -> None:
+        """A button that takes a file out of a field for several, which a file that is dropped is added to."""
+
+        def take_out() -> None:
+            lines = [line.strip() for line in str(self.form.value(one)).splitlines()]
+            rest = "\n".join(line for line in lines if line and self._folder / line != path)
+            ui.run_javascript(FILL.format(name=json.dumps(one.name), value=json.dumps(rest)))
+
+        button = text("button", "remove", type="button", aria_label=f"remove {path.name} from {one.label}")
+        button.on("click", take_out)
+
     def _offer(self, units: list[Field], path: Path, content: Content) -> None:
         """Buttons that choose a unit, of all files where none is chosen yet; nothing is chosen without them."""
 
         def choose(unit: str) -> None:
             field = units[-1] if not self.form.value(units[-1]) else units[0]
-            script = f"const e = document.querySelector('[name={json.dumps(field.name)}]'); e.value = '{unit}';"
-            ui.run_javascript(f"{script} e.dispatchEvent(new Event('change', {{ bubbles: true }}));")
+            ui.run_javascript(FILL.format(name=json.dumps(field.name), value=json.dumps(unit)))
 
         for each in content.units:
             if all(each in one.one.choices for one in units):

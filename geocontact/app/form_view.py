@@ -7,6 +7,7 @@ from typing import Any
 
 from nicegui import ui
 from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
 
 from geocontact.app.elements import choice, element, text
 from geocontact.app.fields import Field, Form
@@ -46,30 +47,42 @@ class FieldRow:
                     text("span", one.unit)
                 if one.kind in ("file", "files"):
                     self._pick(main, upload)
-            self.help = text("p", " ".join(part for part in (one.words, self._more()) if part), "help")
-            self.why = text("p", "", "why")
-            self.bad = text("p", "", "bad", role="alert")
-        main.props["aria-describedby"] = " ".join(each.html_id for each in (self.help, self.why, self.bad))
+            self._help = text("p", " ".join(part for part in (one.words, self._more()) if part), "help")
+        main.props["aria-describedby"] = self._help.html_id
         if one.one.required:
             main.props["aria-required"] = "true"
         self.inputs.insert(0, main)
+        self._said: dict[str, TextElement] = {}
 
     def refresh(self, wrong: str) -> None:
         """Say why it has no effect now, and what is wrong with it."""
         why = self._form.without_effect(self.one)
-        if self.why.text != why:
-            self.why.text = why
+        if self._say("why", why):
             for each in self.inputs:
                 each.props.set_bool("disabled", bool(why))
             self.row.classes(**{"add" if why else "remove": "off"})
-        if self.bad.text != wrong:
-            self.bad.text = wrong
+        if self._say("bad", wrong, role="alert"):
             self.inputs[0].props.set_optional("aria-invalid", "true" if wrong else None)
+
+    def _say(self, kind: str, words: str, **attributes: str) -> bool:
+        """A line below the help, made when there is something to say: most fields never need one; whether it is new."""
+        line = self._said.get(kind)
+        if words == (line.text if line is not None else ""):
+            return False
+        if line is None:
+            with self.row:
+                line = self._said[kind] = text("p", words, kind, **attributes)
+            line.move(target_index=self.row.default_slot.children.index(self._help) + 1)
+            described = (self._help, *self._said.values())
+            self.inputs[0].props["aria-describedby"] = " ".join(each.html_id for each in described)
+        line.text = words
+        return True
 
     def _more(self) -> str:
         """Range and default."""
         parts = (self.one.usual, f"by default {self.one.default}" if self.one.default else "")
-        return "; ".join(part for part in parts if part)
+        more = "; ".join(part for part in parts if part)
+        return more[:1].upper() + more[1:]
 
     def _input(self) -> Element:
         one, value = self.one, self._form.value(self.one)

@@ -122,13 +122,13 @@ def add_pages(queue: Queue, outside: FastAPI) -> None:
         start_page(shared)
 
     @ui.page("/form/{slug}")
-    def _form(slug: str, sample: int = 0) -> None:
+    def _form(slug: str, sample: int = 0, filled: str = "") -> None:
         command = slug.replace(".", " ")
         if command not in samples.SAMPLES:
             raise HTTPException(404)
         _begin(command)
         with element("main"):
-            form_page(shared, command, bool(sample))
+            form_page(shared, command, bool(sample), filled)
 
 
 def start_page(shared: Shared) -> None:
@@ -146,11 +146,11 @@ def start_page(shared: Shared) -> None:
         _recent(queue)
 
 
-def form_page(shared: Shared, command: str, sampled: bool) -> None:
-    """The form of an analysis, filled with its sample where that is asked for."""
+def form_page(shared: Shared, command: str, sampled: bool, filled: str = "") -> None:
+    """The form of an analysis, filled with its sample where that is asked for, or with what an address keeps."""
     queue = shared.queue
-    form = Form(command)
-    if sampled:
+    form = Form.of_kept(command, filled)
+    if sampled and not filled:
         one = samples.sample(command, queue.folder)
         form = Form.of_words(one.words)
         for earlier in one.before:
@@ -159,7 +159,9 @@ def form_page(shared: Shared, command: str, sampled: bool) -> None:
     text("h1", command, tabindex="-1")
     text("p", summary(entry_of(command).load_options()))
     files = Path(f"{out}-files")
-    Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
+    place = Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
+    if filled:
+        place.take_up()
 
 
 def free_folder(folder: Path, command: str) -> Path:
@@ -169,9 +171,11 @@ def free_folder(folder: Path, command: str) -> Path:
 
 
 def earlier_runs(folder: Path) -> list[Run]:
-    """Results of earlier windows, the latest ones first."""
-    found = sorted(folder.glob(f"*/{RECORD}"), key=lambda file: file.stat().st_mtime, reverse=True)
-    return [Run([], file.parent, file.parent.name, state="done") for file in found[:MOST_RECENT]]
+    """Results of earlier windows, the latest ones first; trials of a folder have theirs in a folder each."""
+    records = [*folder.glob(f"*/{RECORD}")]
+    records += [file for file in folder.glob(f"*/*/{RECORD}") if not (file.parent.parent / RECORD).exists()]
+    found = sorted((file.parent for file in records), key=lambda out: (out / RECORD).stat().st_mtime, reverse=True)
+    return [Run([], out, out.relative_to(folder).as_posix(), state="done", earlier=True) for out in found[:MOST_RECENT]]
 
 
 def _begin(title: str) -> None:
@@ -213,13 +217,13 @@ def _to_form(shared: Shared, main: Element, command: str, words: str, sampled: b
 
 
 def _recent(queue: Queue) -> None:
-    done = [run for run in reversed(queue.runs) if run.page is not None][:MOST_RECENT]
+    done = [page for run in reversed(queue.runs) for page in run.pages.items()][:MOST_RECENT]
     if not done:
         text("p", "None yet.")
     with element("ul"):
-        for run in done:
+        for name, address in done:
             with element("li"):
-                link(run.out.name, run.address, target="_blank")
+                link(name, address, target="_blank")
 
 
 def _run_before(queue: Queue, command: str) -> None:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 from typing import IO, Literal
+from urllib.parse import quote
 
 from geocontact.analyses.frame.folder import DRAFT, OWNER
 from geocontact.app.gate import RESULT, secret
@@ -62,6 +63,8 @@ class Run:
     began: float = 0.0
     ended: float = 0.0
     code: int = 0
+    earlier: bool = False
+    """Whether it is one of an earlier window."""
     mark: str = field(default_factory=lambda: secrets.token_hex(4))
     key: str = field(default_factory=secret, repr=False)
     """Word of the address of its results."""
@@ -79,15 +82,20 @@ class Run:
         return self.said[-1] if self.state in ("refused", "failed") and self.said else ""
 
     @property
-    def page(self) -> Path | None:
-        """The page of its results, None where there is none."""
-        page = self.out / REPORT
-        return page if self.state == "done" and page.is_file() else None
+    def pages(self) -> dict[str, str]:
+        """Addresses of the pages of its results by their names: one, or that of each trial of a folder."""
+        if self.state != "done":
+            return {}
+        places = [self.out, *(page.parent for page in sorted(self.out.glob(f"*/{REPORT}")))]
+        found = [each.relative_to(self.out) for each in places if (each / REPORT).is_file() and self._wrote(each)]
+        address = f"{RESULT}{self.key}/"
+        return {"/".join((self.title, *each.parts)): address + quote((each / REPORT).as_posix()) for each in found}
 
-    @property
-    def address(self) -> str:
-        """Where the page of its results is served."""
-        return f"{RESULT}{self.key}/{REPORT}"
+    def _wrote(self, folder: Path) -> bool:
+        """Whether it wrote results into a folder, as it said; one of an earlier window by its folder only."""
+        return any(line.startswith(f"{WROTE}{folder}:") for line in self.printed) or (
+            self.earlier and folder == self.out
+        )
 
     @property
     def complaints(self) -> list[str]:

@@ -1,16 +1,17 @@
 const send = async (input, files) => {
   const target = document.getElementById(input.dataset.target), names = [], failed = [];
-  for (const file of files) try {
+  const [first, ...others] = files, many = target.tagName === 'TEXTAREA';
+  if (!many) failed.push(...others.map(file => `${file.name} was not taken: one file is asked for here`));
+  for (const file of many ? files : [first]) try {
     const answer = await fetch(input.dataset.to + '?name=' + encodeURIComponent(file.name), { method: 'POST', body: file });
     const said = await answer.text();
     if (answer.ok) names.push(said); else failed.push(`${file.name} was not taken: ${said}`);
-  } catch (error) { failed.push(`${file.name} was not taken: ${error.message}`); }
+  } catch (error) { failed.push(`${file.name} was not taken: ${error.message}; type the path of a folder`); }
   input.value = '';
   const row = target.closest('.field');
   const bad = row.querySelector('.failed') ?? row.appendChild(Object.assign(document.createElement('p'), { className: 'bad failed', role: 'alert' }));
   bad.textContent = failed.join('; ');
   if (!names.length) return;
-  const many = target.tagName === 'TEXTAREA';
   target.value = many ? [target.value, ...names].filter(Boolean).join('\n') : names[0];
   target.dispatchEvent(new Event('input', { bubbles: true }));
 };
@@ -28,5 +29,15 @@ const arrive = (address, title) => {
   document.title = title;
   scrollTo(0, 0);
   document.querySelector('h1')?.focus();
+};
+addEventListener('DOMContentLoaded', () => {
+  const [what, then] = document.querySelectorAll('#popup span');
+  what.textContent = 'The window does not answer.';
+  then.textContent = 'If geocontact app was ended, start it again: results are in their folder. Else wait, this page connects again.';
+});
+const keep = filled => {
+  const here = new URL(location);
+  here.search = new URLSearchParams({ filled });
+  history.replaceState(history.state, '', here);
 };
 addEventListener('popstate', () => location.reload());

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from nicegui import background_tasks, ui
@@ -18,7 +19,13 @@ from geocontact.app.form_view import VALUE, FormView
 from geocontact.app.runs import Queue, Run
 from geocontact.app.study import study_of, written_study
 from geocontact.cli.folders import OUT
+from geocontact.cli.main import refusal
+from geocontact.data.errors import InputError
 
+GO_TO_PAGES = (
+    "if (!document.activeElement.matches('input, select, textarea'))document.querySelector('.pages').scrollIntoView();"
+)
+"""Pages lie below a long form; whoever is typing in it stays there."""
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
 
@@ -47,7 +54,9 @@ class Workplace:
     ) -> None:
         self.queue, self.form, self.out = queue, form, out
         self.words: list[str] = []
+        self._named = form.command.split()
         self._dirty = True
+        self._kept = form.kept()
         self._panels: dict[int, RunPanel] = {}
         with element("div", "work"):
             with element("div", "fields"):
@@ -60,7 +69,15 @@ class Workplace:
         ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
 
     def run(self) -> None:
-        """A run of what is filled in; its results lie in a folder of their own."""
+        """A run of what is filled in, unless that is refused as it stands; its results lie in a folder of their own.
+
+        Runs that have not ended yet may write what it reads: then it waits for them before it is judged.
+        """
+        _, wrong = calls.checked(self.form.words(self.out), self.form.command, self.out)
+        if wrong and all(run.over for run in self.queue.runs):
+            self.missing.text = self.view.refresh(wrong, only_touched=False)
+            self.view.go_to(wrong)
+            return
         run = self.queue.add_apart(self.form.words, self.out)
         self.words = run.words
         if run.out != self.out:
@@ -71,24 +88,32 @@ class Workplace:
         self._dirty = True
         self._look()
 
-    def show(self, run: Run, beside: bool) -> None:
+    def take_up(self) -> None:
+        """Show the runs of this analysis that have ended, as before the page was loaded anew, and look at the files."""
+        of_this = [run for run in self.queue.runs if run.words[: len(self._named)] == self._named]
+        for run in of_this:
+            self._panels[run.number] = RunPanel(run, self)
+        self.words = of_this[-1].words if of_this else []
+        self.files.look_at_all()
+
+    def show(self, name: str, address: str, beside: bool) -> None:
         """The page of a result in a frame of its own, in place of those that are shown, or beside the first one."""
         if not beside:
             self.pages.clear()
         elif len(self.pages.default_slot.children) > 1:
             self.pages.default_slot.children[-1].delete()
         with self.pages, element("section"):
-            text("h2", run.title)
-            element(
-                "iframe",
-                src=run.address,
-                title=f"results in {run.title}",
-                sandbox="allow-scripts allow-downloads",
-            )
+            text("h2", name)
+            element("iframe", src=address, title=f"results in {name}", sandbox="allow-scripts allow-downloads")
+        ui.run_javascript(GO_TO_PAGES)
 
     def make_study(self) -> None:
         """Write the study that the form begins beside those that are there, and say how it is run."""
-        described = study_of(self.form, self.queue.start)
+        try:
+            described = study_of(calls.expanded(self.form, self.out), self.queue.start)
+        except (InputError, OSError) as error:
+            self.study.text = refusal(error)
+            return
         file = written_study(self.queue.folder / f"{self.out.name}-study.toml", described)
         self.study.text = f"{described}\n# {shown(['cohort', str(file), OUT, str(file.parent / file.stem)])}"
 
@@ -142,8 +167,8 @@ class Workplace:
             if run.message and run.words == self.words:
                 self.missing.text = self.view.refresh(run.message, only_touched=False)
                 self.view.go_to(run.message)
-            elif run.page is not None and run.words == self.words:
-                self.show(run, beside=False)
+            elif run.pages and run.words == self.words:
+                self.show(*next(iter(run.pages.items())), beside=False)
 
     def _say(self) -> None:
         """Show the call, and a mistake at the field that it names."""
@@ -152,6 +177,9 @@ class Workplace:
         lines, wrong = calls.checked(words, self.form.command, self.out)
         self.python.text = lines or ("…" if wrong else "the command line only")
         self.missing.text = self.view.refresh(wrong)
+        if (kept := self.form.kept()) != self._kept:
+            self._kept = kept
+            ui.run_javascript(f"keep({json.dumps(kept)})")
 
 
 class RunPanel:
@@ -198,18 +226,17 @@ class RunPanel:
         return ended
 
     def _ended(self) -> None:
-        """Offer its page in place of what ended it."""
+        """Offer its pages in place of what ended it."""
         self._cancel.delete()
-        if self.run.page is None:
-            return
-        with self._panel, element("div", "links"):
-            text("button", "show", type="button", aria_label=f"show {self.run.title}").on(
-                "click", lambda: self._place.show(self.run, beside=False)
-            )
-            text("button", "show beside", type="button", aria_label=f"show {self.run.title} beside").on(
-                "click", lambda: self._place.show(self.run, beside=True)
-            )
-            link("in a tab of its own", self.run.address, target="_blank")
+        pages = self.run.pages
+        for name, address in pages.items():
+            with self._panel, element("div", "links"):
+                if len(pages) > 1:
+                    text("span", name.rpartition("/")[2])
+                for words, beside in (("show", False), ("show beside", True)):
+                    button = text("button", words, type="button", aria_label=words.replace("show", f"show {name}"))
+                    button.on("click", partial(self._place.show, name, address, beside))
+                link("in a tab of its own", address, target="_blank")
 
     async def _end(self) -> None:
         from nicegui import run as aside

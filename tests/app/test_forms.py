@@ -19,10 +19,13 @@ from geocontact.analyses.frame.options import Options, declared
 from geocontact.app import calls, samples
 from geocontact.app.fields import UNITS_OF, Form, fields_of, shown
 from geocontact.app.study import study_of, written_study
+from geocontact.cli import folders, opensim_setup
 from geocontact.cli.command import spelling
 from geocontact.cli.folders import calls_in_folder
 from geocontact.cli.main import app
+from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
+from tests.cli.calls import call, done
 from tests.cli.test_tool_folders import leg, opencap, put
 
 __all__ = ["leg"]
@@ -133,6 +136,14 @@ def test_every_unit_that_can_be_chosen_is_read(read: str) -> None:
         assert np.ravel(found) == pytest.approx([0.5 * factors[unit]], rel=1e-9), unit
 
 
+def test_an_address_keeps_a_form_and_a_foreign_one_is_an_empty_form() -> None:
+    form = Form("area", {"threshold": "1, 4", "pressure": True, "motion": "a b\n\u00e4&=%.csv"}, {"threshold": "cm"})
+    assert Form.of_kept("area", form.kept()) == form
+    foreign = '{"values": {"threshold": true, "pressure": "x", "gone": "1"}, "units": {"threshold": 1}}'
+    for text in ("", "[", "1", "[1]", '{"values": 1}', '{"values": {}, "units": []}', foreign):
+        assert Form.of_kept("area", text) == Form("area"), text
+
+
 def test_fields_without_effect_are_neither_enabled_nor_typed() -> None:
     form = Form("area", {"modulus": "500MPa"})
     field = next(one for one in form.fields if one.name == "modulus")
@@ -219,6 +230,37 @@ def test_a_folder_takes_the_place_of_the_recording(leg: Path, tmp_path: Path) ->
     assert lines.count("leg_scaled.osim") == len(found)
     (folder / "OpenSimData" / "Model" / "leg_scaled.osim").unlink()
     assert calls.checked(words, "ik", out)[0] == ""
+
+
+@pytest.mark.parametrize("command", [*opensim_setup.COMMANDS, *folders.COMMANDS])
+def test_what_stands_for_options_is_a_field(command: str) -> None:
+    names = {one.name for one in fields_of(command)}
+    assert {"setup"} & names == ({"setup"} if command in opensim_setup.COMMANDS else set())
+    assert ("trial" in names) == (command in folders.COMMANDS)
+    assert not names & {"setup", "trial"} or command not in ("area", "joint")
+
+
+def test_a_set_up_file_takes_the_place_of_the_recording(leg: Path, tmp_path: Path) -> None:
+    """Its field closes that of the recording; lines in Python and the study have what the file asks for."""
+    done(call("ik", leg / "walk.trc", "--model", leg / "leg.osim", "--out", tmp_path / "ik"))
+    file = tmp_path / "ik" / "setup_ik.xml"
+    form = Form("ik", {"markers": "typed.trc", "setup": str(file)})
+    recording = next(one for one in form.fields if one.name == "markers")
+    assert form.without_effect(recording) == "has no effect with --setup"
+    words = form.words("out")
+    assert words == ["ik", f"--setup={file}", "--out=out"] and Form.of_words(words).values == {"setup": str(file)}
+    lines, wrong = calls.checked(words, "ik", "out")
+    assert wrong == "" and "seen.trc" in lines and "leg.osim" in lines and "setup=" not in lines
+    told = with_setup(words)
+    assert parsed(calls.expanded(form, "out").words("out")) == parsed(told)
+    study = tmp_path / "study.toml"
+    study.write_text(study_of(calls.expanded(form, "out"), tmp_path), encoding="utf-8")
+    options = tomllib.loads(study.read_text("utf-8"))["options"]
+    assert "setup" not in options and options["model"].endswith("leg.osim")
+    form.values["setup"] = str(tmp_path / "none.xml")
+    lines, wrong = calls.checked(form.words("out"), "ik", "out")
+    at = form.at(wrong)
+    assert lines == "" and at is not None and at.name == "setup"
 
 
 def test_the_names_of_options_are_not_found_in_longer_ones() -> None:

@@ -14,11 +14,14 @@ from pathlib import Path
 import pytest
 
 from geocontact.app import calls, runs, samples
-from geocontact.app.fields import Form, shown
+from geocontact.app.fields import Form, fields_of, shown
+from geocontact.app.pages import Shared, earlier_runs
 from geocontact.app.runs import Queue, Run
 from geocontact.app.sample_files import write_files
 from geocontact.cli.demo import sample_folder
+from tests.cli.test_tool_folders import leg, opencap, put
 
+__all__ = ["leg"]
 PATIENCE = 240.0  # s on a busy machine
 
 
@@ -52,13 +55,34 @@ def test_numbers_are_those_of_the_command_line(queue: Queue, tmp_path: Path) -> 
     until(run, "done")
     found = [json.loads((tmp_path / name / "fit.json").read_text("utf-8")) for name in ("window", "shell")]
     assert found[0] == found[1] and "radius" in str(found[0])
-    assert run.page == tmp_path / "window" / "report.html" and any("sphere" in line for line in run.printed)
+    assert (tmp_path / "window" / "report.html").is_file() and any("sphere" in line for line in run.printed)
+    assert run.pages == {"fit": f"/result/{run.key}/report.html"}
+
+
+def test_each_trial_of_a_folder_has_its_page(leg: Path, queue: Queue, tmp_path: Path) -> None:
+    """In this window and, by their names, in the next one; a page that another run left beside them is not its own."""
+    folder, out = opencap(leg, tmp_path / "session"), tmp_path / "markers-1"
+    put(leg, folder, ("walk.mot", "OpenSimData/Kinematics/walk 2.mot"), ("walk.trc", "MarkerData/walk 2.trc"))
+    (out / "other").mkdir(parents=True)
+    (out / "other" / "report.html").touch()
+    form = Form("markers", {fields_of("markers")[0].name: str(folder), "trial": "walk1\nwalk 2"})
+    run = queue.add(form.words(out), out, out.name)
+    until(run, "done")
+    address = f"/result/{run.key}/"
+    assert run.pages == {
+        "markers-1/walk 2": f"{address}walk%202/report.html",
+        "markers-1/walk1": f"{address}walk1/report.html",
+    }
+    assert Shared(queue).file(run.key, "walk 2/report.html") == out / "walk 2" / "report.html"
+    later = {each.title: each.pages for each in earlier_runs(tmp_path)}
+    assert later.keys() == run.pages.keys()
+    assert all(list(pages) == [title] for title, pages in later.items())
 
 
 def test_what_is_refused_says_why_and_warnings_come(queue: Queue, tmp_path: Path) -> None:
     wrong = queue.add(words("fit", tmp_path, "a", unit="m"), tmp_path / "a", "a")
     until(wrong, "refused")
-    assert "too large" in wrong.message and not (tmp_path / "a").exists() and wrong.page is None
+    assert "too large" in wrong.message and not (tmp_path / "a").exists() and not wrong.pages
 
 
 def test_no_module_of_a_folder_is_run_and_relative_paths_start_where_the_window_does(

@@ -6,6 +6,7 @@ import http.client
 import http.server
 import json
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -289,8 +290,8 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     assert ": done" in second and second.partition(":")[0] != first.partition(":")[0]
     tab.get_by_role("button", name=f"show {first.partition(':')[0]} beside", exact=True).click()
     until(tab, "document.querySelectorAll('.pages iframe').length === 2", 20.0)
-    boxes = [tab.locator(".pages iframe").nth(k).bounding_box() for k in (0, 1)]
-    assert boxes[0] is not None and boxes[1] is not None and boxes[0]["y"] == boxes[1]["y"]
+    boxes = tab.evaluate("[...document.querySelectorAll('.pages iframe')].map(e => e.getBoundingClientRect().toJSON())")
+    assert boxes[0]["y"] == boxes[1]["y"] and boxes[0]["right"] <= boxes[1]["left"]
     tab.get_by_role("button", name="copy the command line").click()
     tab.wait_for_timeout(200)
     assert tab.evaluate("navigator.clipboard.readText()") == tab.get_by_label("command line", exact=True).text_content()
@@ -300,6 +301,60 @@ def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     assert files and tomllib.loads(files[-1].read_text("utf-8"))["options"]["limit"] in (8, "8")
     record = json.loads((window.folder / second.partition(":")[0] / "run.json").read_text("utf-8"))
     assert float(record["options"]["limit"]) == 8.0
+    tab.close()
+
+
+@pytest.mark.slow
+def test_a_sample_runs_behind_those_whose_results_it_reads(window: Window) -> None:
+    """Run is pressed before its recording is there, in a folder where no other test has made it."""
+    shutil.rmtree(samples.results_of("markers", window.folder), ignore_errors=True)
+    tab = window.tab("form/ik?sample=1")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    until(tab, "document.querySelectorAll('.run').length === 2", 20.0)
+    assert ": done" in ended(tab)
+    assert [": done" in each for each in tab.locator(".run strong").all_inner_texts()] == [True, True]
+    tab.close()
+
+
+def test_a_page_that_is_loaded_anew_is_as_before(window: Window) -> None:
+    """What was filled in, its unit, and the run with its page; a mistake that is known before starts no run."""
+    tab = window.tab("form/elbow.design?sample=1")
+    tab.locator('[name="limit"]').fill("many")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    until(tab, "document.activeElement.name === 'limit' && document.activeElement.ariaInvalid === 'true'", 20.0)
+    assert tab.locator(".run").count() == 0
+    tab.locator('[name="limit"]').fill("6")
+    tab.get_by_role("button", name="Run", exact=True).click()
+    first = ended(tab).partition(":")[0]
+    until(tab, "document.querySelector('.pages').getBoundingClientRect().top < innerHeight / 2", 20.0)
+    until(tab, "location.search.includes('filled')", 20.0)
+    tab.reload()
+    tab.wait_for_selector(".run")
+    assert tab.locator('[name="limit"]').input_value() == "6"
+    assert [each for each in tab.locator(".run strong").all_inner_texts() if each.startswith(f"{first}: done")]
+    tab.get_by_role("button", name=f"show {first}", exact=True).click()
+    until(tab, "document.querySelectorAll('.pages iframe').length === 1", 20.0)
+    assert tab.locator(f'iframe[title="results in {first}"]').count() == 1
+    tab.close()
+
+
+def test_a_file_that_was_added_is_taken_out_again(window: Window, tmp_path: Path) -> None:
+    """A field for several takes the corrected file beside the first one, which one button removes; it stays after a
+    reload, with its unit."""
+    tab = window.tab("form/area")
+    for name in ("wrong.csv", "right.csv"):
+        (tmp_path / name).write_text("time [s],a [m]\n0,1\n1,2\n", encoding="utf-8")
+        drop(tab, "motion", tmp_path / name)
+    tab.get_by_role("button", name="remove wrong.csv from motion").click()
+    until(tab, "!document.querySelector('[name=motion]').value.includes('wrong.csv')", 20.0)
+    line = "document.querySelector('[aria-label=\"command line\"]').textContent"
+    until(tab, f"!{line}.includes('wrong.csv') && {line}.includes('right.csv')", 20.0)
+    tab.locator('[name="threshold-unit"]').select_option("cm")
+    until(tab, "location.search.includes('cm')", 20.0)
+    tab.reload()
+    said = "document.querySelector('.field:has([name=motion]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes('right.csv')", 60.0)
+    assert tab.locator('[name="threshold-unit"]').input_value() == "cm"
     tab.close()
 
 
@@ -409,6 +464,28 @@ def test_a_mat_is_recognised_and_what_is_no_mesh_is_said_at_once(window: Window,
     said = drop(tab, "surface", broken)
     assert "no triangles" in said or "no faces" in said, said
     assert tab.locator(".content .refused").count() == 1
+    tab.close()
+
+
+def test_a_field_for_one_file_takes_one_and_says_so(window: Window) -> None:
+    tab = window.tab("form/fit")
+    tab.evaluate("""() => { const data = new DataTransfer();
+      for (const name of ['a.stl', 'b.stl']) data.items.add(new File(['x'], name));
+      const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true });
+      document.querySelector('[name=mesh]').dispatchEvent(drop); }""")
+    until(tab, "document.querySelector('[name=mesh]').value.endsWith('a.stl')", 20.0)
+    said = tab.locator('.field:has([name="mesh"]) .failed').inner_text()
+    assert said == "b.stl was not taken: one file is asked for here"
+    tab.close()
+
+
+def test_a_window_that_was_ended_is_said(window: Window) -> None:
+    """In place of the words of the library, which wait for a server that never comes back at that address."""
+    tab = window.tab()
+    assert not tab.locator("#popup").is_visible()
+    tab.evaluate("window.socket.disconnect()")
+    tab.locator("#popup").wait_for(state="visible")
+    assert "start it again" in tab.locator("#popup").inner_text()
     tab.close()
 
 
