@@ -63,6 +63,12 @@ def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) 
     return f"no page: the process that writes it ended with {code}" if code else str(json.loads(printed))
 
 
+def until_close(process: subprocess.Popen[str]) -> bool:
+    """End a process at `close` at the latest; False where that was before."""
+    _running.add(process)
+    return not _closed.is_set()
+
+
 def close() -> None:
     """End all that is being read or written, for good."""
     from geocontact.app.runs import end

@@ -52,7 +52,7 @@ class Workplace:
         with element("div", "work"):
             with element("div", "fields"):
                 self.view = FormView(form, upload, self._changed)
-                self.files = FileView(self.view, queue.start, files, serve)
+                self.files = FileView(self.view, queue.start, files, serve, upload)
             with element("div", "side"):
                 self._beside()
         self.pages = element("div", "pages")
