@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol
 
 from nicegui import background_tasks, ui
 from nicegui.element import Element
@@ -154,6 +155,16 @@ class Workplace:
         self.missing.text = self.view.refresh(wrong)
 
 
+class RunPlace(Protocol):
+    """A page that shows runs: the element for them, their queue, and where the page of a result is shown."""
+
+    queue: Queue
+    runs: Element
+
+    def show(self, run: Run, beside: bool) -> None:
+        """The page of a result."""
+
+
 class RunPanel:
     """A run on the page: how far it is, its warnings, what it printed, and what can be done with it.
 
@@ -163,7 +174,7 @@ class RunPanel:
         What is shown, and the page that it belongs to.
     """
 
-    def __init__(self, run: Run, place: Workplace) -> None:
+    def __init__(self, run: Run, place: RunPlace) -> None:
         self.run, self._place = run, place
         self._seen: tuple[object, ...] = ()
         with place.runs, element("div", "run") as self._panel:
