@@ -133,7 +133,7 @@ def answers() -> None:
         return shown_faces.body_of(question)
 
     def body_of(question: shown_faces.FaceQuestion, known: Known | None) -> object:
-        return read(replace(question, region="", split="", side="", medial="", option=""), known)
+        return read(replace(question, region="", split="", side="", medial="", option="", elsewhere=""), known)
 
     for line in sys.stdin:
         sys.stdout.write(json.dumps(asdict(answer(json.loads(line), body_of))) + "\n")

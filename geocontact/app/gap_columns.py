@@ -10,7 +10,7 @@ from geocontact.app.form_view import VALUE
 UNITS = ("m", "mm", "rad", "deg", "m/s", "N", "kN", "lbf", "N m", "N mm", "m^2", "mm^2", "Pa", "kPa", "MPa")
 """Units that can be chosen for a column whose file states none."""
 INPUT, OUTPUT = "input", "output"
-CHANNELS = {
+CHANNELS: dict[str, dict[str, tuple[str, ...]]] = {
     "elbow": {INPUT: ("beta",), OUTPUT: ("force",)},
     "knee": {
         INPUT: ("flexion", "adduction", "area_medial", "area_lateral"),

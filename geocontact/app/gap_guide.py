@@ -100,7 +100,7 @@ class GapGuide:
         with element("div", "field") as row:
             label = text("label", name)
             with element("div", "in"):
-                made = element(tag, name=name, spellcheck="false", **({"rows": 3} if tag == "textarea" else {}))
+                made = element(tag, name=name, spellcheck="false")
                 label.props["for"] = made.html_id
                 if picks:
                     with element("span", "pick"):

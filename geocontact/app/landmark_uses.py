@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from geocontact.analyses.shape.options import NEEDS
+
 Kind = Literal["region", "named region", "line", "point", "table"]
 REGION: Kind = "region"
 NAMED_REGION: Kind = "named region"
@@ -30,6 +32,10 @@ _USES: dict[tuple[str, str], tuple[Use, ...]] = {
     ("mat", "surface"): (Use("landmarks", TABLE), Use("segment", NAMED_REGION), Use("first_corner", POINT)),
     ("mat", "body"): (Use("picked_on_body", TABLE),),
 }
+
+
+ELSEWHERE = {"fit": tuple(NEEDS)}
+"""Names that a region may use and that depend on more than its surface, by analysis."""
 
 
 def uses_of(command: str, surface: str) -> tuple[Use, ...]:

@@ -45,7 +45,10 @@ const mark = (id, faces) => {
   ports.get(frame)?.postMessage(faces);
 };
 const keep = async (frame, { name, text, landmarks }) => {
-  const answer = await fetch(frame.dataset.to + '?name=' + encodeURIComponent(name), { method: 'POST', body: text });
-  if (!answer.ok) return;
-  frame.dispatchEvent(new CustomEvent('landmarks', { detail: { path: await answer.text(), landmarks } }));
+  const detail = { path: '', wrong: '', landmarks };
+  try {
+    const answer = await fetch(frame.dataset.to + '?name=' + encodeURIComponent(name), { method: 'POST', body: text });
+    detail[answer.ok ? 'path' : 'wrong'] = await answer.text();
+  } catch (error) { detail.wrong = error.message; }
+  frame.dispatchEvent(new CustomEvent('landmarks', { detail }));
 };

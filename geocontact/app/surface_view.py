@@ -16,7 +16,7 @@ from geocontact.app.faces import Chooser, Found
 from geocontact.app.fields import Field, Form
 from geocontact.app.files import page_name, write_page
 from geocontact.app.form_view import PAUSE, VALUE
-from geocontact.app.landmark_uses import LINE, NAMED_REGION, POINT, REGION, TABLE, Use, region_of, uses_of
+from geocontact.app.landmark_uses import ELSEWHERE, LINE, NAMED_REGION, POINT, REGION, TABLE, Use, region_of, uses_of
 from geocontact.app.region_box import NAMES, STEPS, Box
 
 _chooser = Chooser()
@@ -138,6 +138,9 @@ class SurfaceView:
         path, names = str(event.args["path"]), [str(each) for each in event.args["landmarks"]]
         self._uses.clear()
         with self._uses:
+            if not path:
+                text("p", f"the landmarks were not saved: {event.args['wrong']}", "bad", role="alert")
+                return
             text("p", f"{len(names)} landmark{'s' if len(names) > 1 else ''} in {path}", "help")
             for use in uses_of(self._form.command, self._one.name):
                 with element("div", "links"):
@@ -195,6 +198,7 @@ class SurfaceView:
             "merge_tolerance": self._value("merge_tolerance"),
             "assume_closed": closed in (own, "both"),
         }
+        asked["elsewhere"] = ",".join(ELSEWHERE.get(self._form.command, ()))
         if own != "moving":  # the plane divides the other body
             asked |= {name: self._value(name) for name in ("split", "side", "medial")}
         return asked

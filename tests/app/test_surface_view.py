@@ -79,6 +79,7 @@ def test_the_faces_are_those_of_the_expression(chooser: Chooser, tmp_path: Path)
 def test_what_the_analysis_refuses_is_said_in_its_words(chooser: Chooser) -> None:
     assert "'qq' is not understood" in chooser.ask(asked(region="qq>1")).said
     assert "holds for no face" in chooser.ask(asked(region="y>1e4")).said
+    assert "outward depends on other options" in chooser.ask(asked(region="outward>0", elsewhere="outward,radial")).said
     found = chooser.ask(asked(split="z"))
     assert "does not say which side of the plane is medial" in found.said and found.marked is None
 

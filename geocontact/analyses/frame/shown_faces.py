@@ -17,6 +17,7 @@ from geocontact.analyses.frame.quantities import length
 from geocontact.analyses.frame.shared_options import medial_side, refuse_other_axes
 from geocontact.data.errors import InputError
 from geocontact.geometry.plane import Plane
+from geocontact.geometry.regions import Values
 from geocontact.geometry.surface import Surface
 from geocontact.io.mesh.meshes import read_mesh
 from geocontact.io.text.units import LENGTH
@@ -42,6 +43,8 @@ class FaceQuestion:
         Whether the surface is taken for closed.
     split, side, medial
         Values of the options of these names.
+    elsewhere
+        Names, with commas between them, that the region may use and that only the analysis can compute.
     """
 
     surface: str
@@ -54,6 +57,7 @@ class FaceQuestion:
     split: str = ""
     side: str = ""
     medial: str = ""
+    elsewhere: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +109,8 @@ def body_of(asked: FaceQuestion) -> Surface:
 
 def shown_faces(asked: FaceQuestion, body: Surface) -> ShownFaces:
     """Faces that count on `body_of(asked)`, and the medial side; InputError as the analysis has it."""
-    faces = chosen_faces(asked.option, asked.region or None, body, asked.unit)
+    more = {name: _only_in_the_analysis(name) for name in asked.elsewhere.split(",") if name}
+    faces = chosen_faces(asked.option, asked.region or None, body, asked.unit, more)
     chosen = np.ones(len(body.faces), bool) if faces is None else faces
     centroid = body.vertices[body.faces].mean(axis=1) / LENGTH[asked.unit]
     box = [(float(each.min()), float(each.max())) for each in centroid.T] + [(-NORMAL, NORMAL)] * 3
@@ -113,6 +118,13 @@ def shown_faces(asked: FaceQuestion, body: Surface) -> ShownFaces:
     words = f"{int(chosen.sum())} of {len(chosen)} faces count, {area:.1f} mm^2"
     plane, sides = _medial(asked, body)
     return ShownFaces(chosen, box, area, plane, LENGTH[asked.unit] * MM, words + sides)
+
+
+def _only_in_the_analysis(name: str) -> Values:
+    def refuse() -> Float[np.ndarray, " m"]:
+        raise ValueError(f"{name} depends on other options as well: the run has it, this picture has not")
+
+    return refuse
 
 
 def _medial(asked: FaceQuestion, body: Surface) -> tuple[tuple[float, float, float, float] | None, str]:
