@@ -1,4 +1,4 @@
-"""Faces that a filled form counts, chosen in a process of its own by what `--region` uses, for the picture.
+"""Faces that a filled form counts, chosen in a process of its own by what `region` uses, for the picture.
 
 The process stays, with the last surface, so that the next answer takes no longer than the choice itself.
 """
@@ -20,6 +20,8 @@ from typing import Any
 
 from geocontact.app.files import PATIENCE, Known, known_file, until_close
 from geocontact.data.errors import InputError
+
+SIDES = "; medial in blue, lateral in orange"
 
 
 @dataclass(frozen=True)
@@ -119,7 +121,7 @@ def answer(asked: dict[str, Any], body_of: Callable[[Any, Any], Any]) -> Found:
             return Found(f"not coloured: {error}")
     bits = b64encode(np.packbits(found.chosen, bitorder="little").tobytes()).decode("ascii")
     marked = {"faces": bits, "count": len(found.chosen), "medial": found.medial, "scale": found.scale}
-    return Found(found.words, marked, [list(each) for each in found.box])
+    return Found(found.words + (SIDES if found.medial else ""), marked, [list(each) for each in found.box])
 
 
 def answers() -> None:

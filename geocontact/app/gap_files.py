@@ -31,6 +31,12 @@ def write_trials(files: Sequence[Path], rows: Sequence[Row], folder: Path) -> li
     return [wrong] if found is None else found["said"]
 
 
+def settings_of(folder: Path) -> dict[str, Any]:
+    """What case.toml of a begun case says; empty where it cannot be read."""
+    found, _ = answer_of(__name__, {"task": "settings", "folder": str(folder)})
+    return dict(found["settings"]) if found is not None and "settings" in found else {}
+
+
 def answer_questions(folder: Path, answers: Mapping[str, Any]) -> str:
     """Write answers into a case that was begun; why not, "" where they are written."""
     found, wrong = answer_of(__name__, {"task": "answers", "folder": str(folder), **answers})
@@ -72,9 +78,16 @@ def _answers(asked: dict[str, Any]) -> dict[str, Any]:
     return {"said": []}
 
 
+def _settings(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.init.answers import begun_settings
+
+    return {"settings": begun_settings(Path(asked["folder"])), "said": []}
+
+
 def answer(asked: dict[str, Any]) -> dict[str, Any]:
     """The answer to one question, in this process; a refusal stands in `said`."""
-    task = {"columns": _columns, "trials": _trials, "answers": _answers}[asked["task"]]
+    tasks = {"columns": _columns, "trials": _trials, "settings": _settings, "answers": _answers}
+    task = tasks[asked["task"]]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

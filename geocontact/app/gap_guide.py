@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import tomllib
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -19,7 +18,7 @@ from geocontact.app.elements import choice, element, text
 from geocontact.app.fields import Form, shown
 from geocontact.app.form_view import VALUE
 from geocontact.app.gap_columns import ColumnTable
-from geocontact.app.gap_files import answer_questions, columns_of, write_trials
+from geocontact.app.gap_files import answer_questions, columns_of, settings_of, write_trials
 from geocontact.app.gap_questions import QuestionTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
@@ -172,27 +171,33 @@ class GapGuide:
         self._panels[run.number] = RunPanel(run, self)
         return run
 
-    def _look(self) -> None:
+    async def _look(self) -> None:
         for run in [panel.run for panel in self._panels.values() if panel.refresh()]:
             if run.page is not None:
                 self.show(run, beside=False)
             if run is self._first and run.state == "done":
-                self._ask(run.out)
+                await self._ask(run.out)
             if run is self._first and run.message:
                 self._said_first.text = run.message
 
-    def _ask(self, case: Path) -> None:
+    async def _ask(self, case: Path) -> None:
         """The questions that a begun case leaves."""
-        for adapter in case.glob("*_adapter.py"):
-            self._files.mkdir(parents=True, exist_ok=True)
-            shutil.copy(adapter, self._files / adapter.name)
-        settings = tomllib.loads((case / CASE).read_text(encoding="utf-8"))
+        self._keep_adapters(case)
+        settings = await aside.io_bound(settings_of, case)
+        if not settings or self._place_questions.is_deleted:
+            return
         outputs = self._columns.outputs() if self._columns is not None else []
         with self._place_questions:
             self._questions = QuestionTable(settings, outputs)
             self._button("write the case", partial(self._write, case))
             self._button("diagnose", partial(self._diagnose, case, settings["system"]))
             self._said_case = text("p", "", "why", role="status")
+
+    def _keep_adapters(self, case: Path) -> None:
+        """Modules beside the simulator: Python does not look for any in the folder of a case."""
+        for adapter in case.glob("*_adapter.py"):
+            self._files.mkdir(parents=True, exist_ok=True)
+            shutil.copy(adapter, self._files / adapter.name)
 
     async def _write(self, case: Path) -> bool:
         """Write the answers into the case; whether it can be read with them."""

@@ -1,4 +1,4 @@
-"""A box of faces as an expression of `--region`."""
+"""A box of faces as an expression of `region`."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Box:
 
     @property
     def expression(self) -> str:
-        """What `--region` reads; "" for the whole surface."""
+        """What `region` reads; "" for the whole surface."""
         terms = []
         for axis, name in enumerate(NAMES):
             low, high = self.ranges[axis]

@@ -174,7 +174,7 @@ def test_faces_of_the_region_are_coloured_at_once(window: Window) -> None:
     tab.locator('[name="region"]').fill("")
     tab.locator('[name="split"]').fill("z")
     tab.locator('[name="side"]').select_option("right")
-    until(tab, "document.querySelector('.picture p.help').textContent.includes('medial (blue) is -z')", 30.0)
+    until(tab, "document.querySelector('.picture p.help').textContent.includes('medial is -z')", 30.0)
     medial, lateral = marked_pixels(frame)
     assert min(len(medial), len(lateral)) > 1000
     assert max(medial.min(), lateral.min()) == pytest.approx(min(medial.max(), lateral.max()), abs=0.01)

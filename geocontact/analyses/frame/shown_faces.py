@@ -137,7 +137,7 @@ def _medial(asked: FaceQuestion, body: Surface) -> tuple[tuple[float, float, flo
     corner, *along = _heights(plane, body)
     scale = side.sign / float(np.linalg.norm([each - corner for each in along]))
     x, y, z = ((float(each) - float(corner)) * scale for each in along)
-    return (x, y, z, -float(corner) * scale * MM), f"; medial (blue) is {side.words}"
+    return (x, y, z, -float(corner) * scale * MM), f"; medial is {side.words}"
 
 
 def _heights(plane: Plane, body: Surface) -> Float[np.ndarray, " 4"]:

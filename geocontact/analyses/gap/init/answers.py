@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from geocontact.data.errors import InputError
 from geocontact.io.cases.case_settings import SETTINGS
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import toml_key
+from geocontact.io.text.file_preflight import read_text_bytes
 
 _SECTION = re.compile(r"\[(?P<name>[^\]]+)\]")
 _ASKED = re.compile(r"#\s+(\d+\. |.*= \?)|# Open questions")
@@ -25,6 +28,11 @@ class AnsweredNumber:
     lower: float | None
     upper: float | None
     unit: str
+
+
+def begun_settings(folder: Path) -> dict[str, Any]:
+    """What case.toml of a begun case says, with "?" for what is open."""
+    return tomllib.loads(read_text_bytes(folder / SETTINGS).decode("utf-8"))
 
 
 def answer_case(
@@ -55,12 +63,13 @@ def answer_case(
         The case cannot be read with these answers.
     """
     file = folder / SETTINGS
-    before = file.read_text(encoding="utf-8")
+    before = read_text_bytes(file).decode("utf-8")
     trials = sorted(each.stem for each in (folder / "trials").glob("*.csv"))
     if unknown := [name for name in evaluation if name not in trials]:
         raise InputError(folder, "", f"has no trial {unknown[0]}", f"it has {', '.join(trials)}")
     calibration = [name for name in trials if name not in evaluation]
-    file.write_text("\n".join(_lines(before, calibration, evaluation, numbers, noise)) + "\n", "utf-8", newline="\n")
+    answered = "\n".join(_lines(before, calibration, evaluation, numbers, noise)) + "\n"
+    file.write_text(answered, encoding="utf-8", newline="\n")
     try:
         read_gap_case(folder, run_programs=simulator_allowed)
     except InputError:
