@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 
 from nicegui import run as aside
-from nicegui import ui
 from nicegui.element import Element
 
 from geocontact.analyses.frame.file_content import MODEL, SURFACE, Content, markers_in_common
 from geocontact.app.elements import element, text
 from geocontact.app.fields import Field
-from geocontact.app.files import Known, contents, known_file, page_name, write_page
+from geocontact.app.files import Known, contents, known_file
 from geocontact.app.form_view import FieldRow, FormView
-
-FILL = (
-    "const e = document.querySelector(`[name=${{CSS.escape({name})}}]`); e.value = {value};"
-    "e.dispatchEvent(new Event('change', {{ bubbles: true }}));"
-)
-"""Fill in a value as a hand does."""
+from geocontact.app.surface_view import SurfaceView, fill
 
 
 class FileView:
@@ -37,10 +30,13 @@ class FileView:
         Folder for pages of surfaces.
     serve
         Address of a page that was written.
+    upload
+        Address that takes landmarks.
     """
 
-    def __init__(self, view: FormView, folder: Path, pages: Path, serve: Callable[[Path], str]) -> None:
-        self.form, self._folder, self._pages, self._serve = view.form, folder, pages, serve
+    def __init__(self, view: FormView, folder: Path, pages: Path, serve: Callable[[Path], str], upload: str) -> None:
+        self.form, self._folder, self._pages, self._serve, self._upload = view.form, folder, pages, serve, upload
+        self._pictures: dict[str, list[SurfaceView]] = {}
         self._rows = {row.one.name: row for row in view.rows if row.one.kind in ("file", "files")}
         self._places: dict[str, Element] = {}
         self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())
@@ -66,6 +62,8 @@ class FileView:
                 for name, files in now.items():
                     if files or name in self._places:
                         self._show(self._rows[name], files)
+            for picture in [each for some in self._pictures.values() for each in some]:
+                await picture.colour()
         finally:
             self._at_work = False
 
@@ -88,6 +86,7 @@ class FileView:
                 self._places[row.one.name] = element("div", "content", aria_live="polite")
         place = self._places[row.one.name]
         place.clear()
+        self._pictures.pop(row.one.name, None)
         with place:
             for known in files:
                 self._file(row.one, known[0], self._known[known])
@@ -110,7 +109,7 @@ class FileView:
         if units and content.kind == SURFACE and not content.wrong:
             with element("div", "links"):
                 self._offer(units, path, content)
-                self._picture(units, path)
+                self._picture(one, units, path)
 
     def _without(self, one: Field, path: Path) -> None:
         """A button that takes a file out of a field for several, which a file that is dropped is added to."""
@@ -118,7 +117,7 @@ class FileView:
         def take_out() -> None:
             lines = [line.strip() for line in str(self.form.value(one)).splitlines()]
             rest = "\n".join(line for line in lines if line and self._folder / line != path)
-            ui.run_javascript(FILL.format(name=json.dumps(one.name), value=json.dumps(rest)))
+            fill(one.name, rest)
 
         button = text("button", "remove", type="button", aria_label=f"remove {path.name} from {one.label}")
         button.on("click", take_out)
@@ -128,34 +127,18 @@ class FileView:
 
         def choose(unit: str) -> None:
             field = units[-1] if not self.form.value(units[-1]) else units[0]
-            ui.run_javascript(FILL.format(name=json.dumps(field.name), value=json.dumps(unit)))
+            fill(field.name, unit)
 
         for each in content.units:
             if all(each in one.one.choices for one in units):
                 button = text("button", f"use {each}", type="button", aria_label=f"use {each} for {path.name}")
                 button.on("click", partial(choose, each))
 
-    def _picture(self, units: list[Field], path: Path) -> None:
-        button = text("button", "show in 3-D", type="button", aria_label=f"show {path.name} in 3-D")
-        said = text("span", "", "why", role="status")
-        place = element("div", "picture")
-
-        async def show() -> None:
-            chosen = next(filter(None, (str(self.form.value(one)) for one in units)), "")
-            if not chosen:
-                said.text = f"choose the {units[-1].label} first"
-                return
-            out = self._pages / page_name(path, chosen)
-            said.text = "…"
-            self._pages.mkdir(parents=True, exist_ok=True)
-            said.text = str(await aside.io_bound(write_page, path, chosen, out))
-            place.clear()
-            if not said.text:
-                with place:
-                    title = f"{path.name} in 3-D"
-                    element("iframe", src=self._serve(out), title=title, sandbox="allow-scripts allow-downloads")
-
-        button.on("click", show)
+    def _picture(self, one: Field, units: list[Field], path: Path) -> None:
+        self._pictures[one.name] = [
+            *self._pictures.get(one.name, ()),
+            SurfaceView(self.form, one, units, path, self._pages, self._serve, self._upload),
+        ]
 
     def _units_of(self, one: Field) -> list[Field]:
         """Fields for the unit of a file: one of its own before that of all."""

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from geocontact.analyses.frame.file_content import Content, content_of
 from geocontact.data.errors import InputError
@@ -61,6 +62,20 @@ def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) 
     if code is None:
         return f"no page: writing it lasts more than {patience:g} s"
     return f"no page: the process that writes it ended with {code}" if code else str(json.loads(printed))
+
+
+def answer_of(module: str, question: object, patience: float = PATIENCE) -> tuple[Any, str]:
+    """What a module of this room prints for a question, both as JSON; None and why where it prints nothing."""
+    code, printed = _ended([sys.executable, "-P", "-m", module, json.dumps(question)], patience)
+    if code is None:
+        return None, f"reading lasts more than {patience:g} s"
+    return (json.loads(printed), "") if code == 0 else (None, f"the process that reads ended with {code}")
+
+
+def until_close(process: subprocess.Popen[str]) -> bool:
+    """End a process at `close` at the latest; False where that was before."""
+    _running.add(process)
+    return not _closed.is_set()
 
 
 def close() -> None:

@@ -17,6 +17,7 @@ from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
 from geocontact.app.elements import element, link, text
 from geocontact.app.fields import Form
+from geocontact.app.gap_guide import GapGuide
 from geocontact.app.gate import RESULT, secret
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import Workplace
@@ -25,6 +26,7 @@ from geocontact.cli.command import summary
 MOST_RECENT = 12
 MOST_OF_A_NAME = 10_000
 RECORD = "run.json"
+GUIDE, GUIDED = "/gap-case", "a gap case, step by step"
 HERE = Path(__file__).parent
 SANDBOX = (
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
@@ -130,6 +132,15 @@ def add_pages(queue: Queue, outside: FastAPI) -> None:
         with element("main"):
             form_page(shared, command, bool(sample), filled)
 
+    @ui.page(GUIDE)
+    def _guide() -> None:
+        _begin(GUIDED)
+        with element("main"):
+            text("h1", GUIDED, tabindex="-1")
+            out = free_folder(queue.folder, "gap case")
+            files = Path(f"{out}-files")
+            GapGuide(queue, out, shared.upload_to(files), files)
+
 
 def start_page(shared: Shared) -> None:
     """What somebody has leads to the analysis for it."""
@@ -139,6 +150,9 @@ def start_page(shared: Shared) -> None:
         text("h1", "I have …")
         for what, commands in samples.START.items():
             text("h2", what)
+            if "gap init" in commands:
+                with element("p"):
+                    link(GUIDED, GUIDE)
             with element("div", "have"):
                 for command in commands:
                     _card(shared, main, command, summary(known[command].load_options()))

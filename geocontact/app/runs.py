@@ -48,11 +48,14 @@ class Run:
         Folder of its results.
     title
         What it is, for lists.
+    modules
+        Folders in which Python looks for a simulator of the user's own, as PYTHONPATH has them; "" for none.
     """
 
     words: list[str]
     out: Path
     title: str
+    modules: str = ""
     number: int = 0
     state: State = "waiting"
     stage: str = ""
@@ -148,7 +151,7 @@ class Queue:
         """A run that begins when those before it have ended."""
         return self.remember(Run(list(words), out, title))
 
-    def add_apart(self, words: Callable[[Path], Sequence[str]], out: Path) -> Run:
+    def add_apart(self, words: Callable[[Path], Sequence[str]], out: Path, modules: str = "") -> Run:
         """A run into `out`, or into the next folder of that name and number where another run has it already."""
         with self._changed:
             taken = {_spot(run.out) for run in self.runs if run.state in HOLD_THEIR_FOLDER}
@@ -158,7 +161,7 @@ class Queue:
                 base = stem if dash and last.isdigit() else out.name
                 numbered = (out.with_name(f"{base}-{k}") for k in count(2))
                 out = next(each for each in numbered if _spot(each) not in taken and not each.exists())
-            return self.add(words(out), out, out.name)
+            return self.remember(Run(list(words(out)), out, out.name, modules))
 
     def remember(self, run: Run) -> Run:
         """Number a run and keep it; one that waits begins in its turn."""
@@ -211,10 +214,13 @@ class Queue:
 def _start(run: Run, folder: Path) -> None:
     """Start the process, in a group of its own, so that all of it can be ended; no module of `folder` is imported."""
     run.state, run.began = "running", time.monotonic()
+    places = os.pathsep.join(filter(None, (run.modules, os.environ.get("PYTHONPATH", ""))))
     run.process = subprocess.Popen(
         [sys.executable, "-P", "-m", "geocontact.app.child", *run.words],
         cwd=folder,
-        env=os.environ | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8", OWNER: run.mark},
+        env=os.environ
+        | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8", OWNER: run.mark}
+        | ({"PYTHONPATH": places} if places else {}),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

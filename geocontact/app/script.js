@@ -41,3 +41,25 @@ const keep = filled => {
   history.replaceState(history.state, '', here);
 };
 addEventListener('popstate', () => location.reload());
+const ports = new WeakMap();
+const attach = frame => {
+  const { port1, port2 } = new MessageChannel();
+  port1.onmessage = ({ data }) => keep(frame, data);
+  ports.set(frame, port1);
+  frame.contentWindow.postMessage('geocontact', '*', [port2]);
+  if (frame.marked) port1.postMessage(frame.marked);
+};
+const mark = (id, faces) => {
+  const frame = document.getElementById(id);
+  if (!frame) return;
+  frame.marked = faces;
+  ports.get(frame)?.postMessage(faces);
+};
+const keep = async (frame, { name, text, landmarks }) => {
+  const detail = { path: '', wrong: '', landmarks };
+  try {
+    const answer = await fetch(frame.dataset.to + '?name=' + encodeURIComponent(name), { method: 'POST', body: text });
+    detail[answer.ok ? 'path' : 'wrong'] = await answer.text();
+  } catch (error) { detail.wrong = error.message; }
+  frame.dispatchEvent(new CustomEvent('landmarks', { detail }));
+};

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Protocol
 
 from nicegui import background_tasks, ui
 from nicegui.element import Element
@@ -61,7 +62,7 @@ class Workplace:
         with element("div", "work"):
             with element("div", "fields"):
                 self.view = FormView(form, upload, self._changed)
-                self.files = FileView(self.view, queue.start, files, serve)
+                self.files = FileView(self.view, queue.start, files, serve, upload)
             with element("div", "side"):
                 self._beside()
         self.pages = element("div", "pages")
@@ -182,6 +183,16 @@ class Workplace:
             ui.run_javascript(f"keep({json.dumps(kept)})")
 
 
+class RunPlace(Protocol):
+    """A page that shows runs: the element for them, their queue, and where the page of a result is shown."""
+
+    queue: Queue
+    runs: Element
+
+    def show(self, run: Run, beside: bool) -> None:
+        """The page of a result."""
+
+
 class RunPanel:
     """A run on the page: how far it is, its warnings, what it printed, and what can be done with it.
 
@@ -191,7 +202,7 @@ class RunPanel:
         What is shown, and the page that it belongs to.
     """
 
-    def __init__(self, run: Run, place: Workplace) -> None:
+    def __init__(self, run: Run, place: RunPlace) -> None:
         self.run, self._place = run, place
         self._seen: tuple[object, ...] = ()
         with place.runs, element("div", "run") as self._panel:

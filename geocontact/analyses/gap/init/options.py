@@ -28,7 +28,8 @@ class InitOptions(Options):
     ----------
     simulator
         A Python file with `run(time, inputs, numbers)` or a `gc.simulator_base`, "mine.py:NAME" where it has several;
-        an .fmu file; or the command of a program that simulates one trial, "prog {params} {trial} {out}". It is run.
+        an .fmu file; the command of a program that simulates one trial, "prog {params} {trial} {out}"; or elbow or
+        knee, models of this package. It is run.
         PARAMETERS, a tuple of `gc.Parameter` in the Python file, are written into case.toml.
     data
         Folder with a .csv file per trial: time, inputs and outputs, units in the header.

@@ -20,11 +20,15 @@ from geocontact.data.gap_case import COMMAND
 from geocontact.data.parameter import Parameter
 from geocontact.io.cases.gap_case import PLACES, program
 from geocontact.systems.base import Base
+from geocontact.systems.elbow import ELBOW
+from geocontact.systems.knee import KNEE
 from geocontact.systems.simulator import simulated_system, simulator_base
 from geocontact.systems.validate import said
 
 LOADS = ("N", "N m", "Pa")
 """Units of what a simulator of contact predicts, where nobody says which columns it does."""
+SHIPPED = (ELBOW, KNEE)
+"""Base models of the package that need neither a table nor a list of sites; their numbers are given by `number`."""
 Units = Mapping[str, str]
 """SI unit of each column of the trials, by name, in their order."""
 
@@ -64,10 +68,13 @@ def found_simulator(o: InitOptions, units: Units) -> FoundSimulator:
     """The simulator that is named; InputError where there is none, or where it is not clear what it takes and gives."""
     if any(place in o.simulator for place in PLACES):
         return _program(o, units)
+    if shipped := next((base for base in SHIPPED if base.name == o.simulator), None):
+        return _shipped(shipped, o)
     path, _, name = o.simulator.partition(".py:")
     file = Path(f"{path}.py" if name else o.simulator)
     if not file.is_file():
-        remedy = 'give a .py or .fmu file, or a command such as "prog {params} {trial} {out}"'
+        models = " or ".join(base.name for base in SHIPPED)
+        remedy = f'give a .py or .fmu file, {models}, or a command such as "prog {{params}} {{trial}} {{out}}"'
         raise InputError("", "`simulator`", f"there is no file {str(file)!r}", remedy)
     if file.suffix.lower() == ".fmu":
         return _fmu(file, units)
@@ -75,6 +82,16 @@ def found_simulator(o: InitOptions, units: Units) -> FoundSimulator:
         what = f"{file.name} is neither a .py nor an .fmu file"
         raise InputError("", "`simulator`", what, f'give the command that runs it: "prog {" ".join(PLACES)}"')
     return _python(file, name, o, units)
+
+
+def _shipped(base: Base, o: InitOptions) -> FoundSimulator:
+    """A base model of the package, whose channels have names of its own."""
+    for option, given in (("outputs", o.outputs), ("inputs", o.inputs), ("acts_on", o.acts_on)):
+        if given is not None:
+            channels = f"{', '.join(base.inputs)} → {', '.join(base.outputs)}"
+            what = f"has no effect: the channels of the model {base.name} are {channels}"
+            raise InputError("", f"`{option}`", what, "leave it out")
+    return FoundSimulator(f"the model {base.name}", base.name, base)
 
 
 def _program(o: InitOptions, units: Units) -> FoundSimulator:

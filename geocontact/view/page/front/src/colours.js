@@ -16,6 +16,9 @@ const BELOW_TO_ABOVE = [
 ];
 export const BEYOND = "#c9cdd2";
 export const PLAIN = "#b9bec6";
+// faces that are named, and those of them on the other side of a plane
+export const MARKED = "#3f83c8";
+export const MARKED_LATERAL = "#e0862f";
 
 const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 

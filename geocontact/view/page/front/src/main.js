@@ -3,6 +3,7 @@ import { curves, strip } from "./charts.js";
 import { continues } from "./continues.js";
 import { cursor, keys, player } from "./controls.js";
 import { matrix, strips } from "./heat.js";
+import { hosted, marking } from "./host.js";
 import { intervals } from "./intervals.js";
 import { names } from "./linkages.js";
 import { legend, scaleBar, triad } from "./overlays.js";
@@ -15,6 +16,7 @@ import { tools } from "./tools.js";
 
 const element = (id) => document.getElementById(id);
 const state = (window.__geocontact = { ready: false, frame: 0 });
+const host = hosted(); // before the window can have said anything
 
 function notice(text) {
   element("notice").textContent = text;
@@ -55,7 +57,10 @@ async function picture(data, time, play) {
   const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
   tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())], time, play, data.title);
   time.listen(scene.show);
-  if (element("picking")) picking(scene);
+  if (element("picking")) {
+    picking(scene, host);
+    host.then((port) => marking(scene, port));
+  }
   scene.choose = (threshold) => {
     const thresholds = boldFirst(data.scene.thresholds, threshold);
     choices.at(-1).thresholds = thresholds;

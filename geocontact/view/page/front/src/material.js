@@ -1,7 +1,7 @@
 // How a body looks: distance as colour, contours at the thresholds, hatching where bodies overlap, grey beyond; or an
 // amount on each face as colour, grey where there is none.
 import { Color, ColorManagement, DataTexture, GLSL3, NearestFilter, RawShaderMaterial, Vector4 } from "three";
-import { BEYOND, PLAIN, ramp } from "./colours.js";
+import { BEYOND, MARKED, MARKED_LATERAL, PLAIN, ramp } from "./colours.js";
 
 ColorManagement.enabled = false; // colours go to the screen as the legend has them
 
@@ -27,9 +27,9 @@ precision highp float;
 uniform sampler2D ramp;
 uniform vec2 span;
 uniform float thresholds[COUNT];
-uniform vec4 section;
-uniform bool sectioned, coloured, amounts, sides;
-uniform vec3 grey, plain, inside;
+uniform vec4 section, plane;
+uniform bool sectioned, coloured, amounts, sides, marked, divided;
+uniform vec3 grey, plain, inside, one, other;
 uniform float opacity, pixel, stepSize;
 in vec3 seen, placed;
 in float value, beyond;
@@ -56,6 +56,7 @@ void main() {
     float far = amounts ? 0.0 : smoothstep(-0.5, 0.5, over / slope / pixel);
     colour = mix(plain, mix(near, grey, max(smoothstep(0.0, 0.7, beyond), far)), solid);
   }
+  if (marked && beyond < 0.5) colour = divided && dot(plane.xyz, placed) < plane.w ? other : one;
   colour = colour * light + shine;
   if (coloured && !amounts && beyond < 0.3) {
     for (int k = COUNT - 1; k >= 0; k--) {
@@ -108,7 +109,17 @@ export function materialOf(shared, scene, inside) {
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     defines: { COUNT: scene.thresholds.length },
-    uniforms: { ...shared, coloured: { value: false }, inside: { value: new Color(inside) }, opacity: { value: 1 } },
+    uniforms: {
+      ...shared,
+      coloured: { value: false },
+      inside: { value: new Color(inside) },
+      opacity: { value: 1 },
+      marked: { value: false },
+      divided: { value: false },
+      plane: { value: new Vector4(1, 0, 0, 0) },
+      one: { value: new Color(MARKED) },
+      other: { value: new Color(MARKED_LATERAL) },
+    },
     side: 2,
   });
 }

@@ -9,7 +9,7 @@ const STEP = 8; // px; of the cross by a key
 const DIGITS = 7; // of coordinates as shown; saved are twelve
 
 /** Picking on the bodies that have the numbers of their files. */
-export function picking(scene) {
+export function picking(scene, host) {
   const { canvas, view } = scene;
   const bodies = scene.bodies.filter((body) => body.source);
   const marks = []; // { body, name, corners, weights, at, row, column }
@@ -136,7 +136,7 @@ export function picking(scene) {
     const bare = marks.find(({ name }) => !name || /[\p{C}:]|(?! )\p{Z}/u.test(name));
     const unplaced = element("pick-mat").checked && marks.find(({ row, column }) => [row, column].some((text) => !/^\d*\.?\d+$/.test(text)));
     const why = bare ? (bare.name ? `${bare.name}: a name is letters, digits, signs and spaces, without a colon.` : "A landmark has no name.") : twice ? `Two landmarks are named ${twice.name}.` : unplaced ? `${unplaced.name} needs a row and a column of the mat, such as 0 and 7.5.` : "";
-    element("pick-save").disabled = !marks.length || Boolean(why);
+    for (const id of ["pick-save", "pick-use"]) element(id).disabled = !marks.length || Boolean(why);
     element("pick-hint").textContent = why || (moving !== null ? `Click the new place of ${marks[moving].name}.` : on ? "Click the surface; drag still turns it." : "Press “pick points”, then click the surface. With keys: P, then arrows and Enter on the picture.");
     element("pick-hint").classList.toggle("warns", Boolean(why));
   }
@@ -222,11 +222,20 @@ export function picking(scene) {
   element("pick").addEventListener("click", toggle);
   element("pick-undo").addEventListener("click", undo);
   element("pick-mat").addEventListener("change", list);
+  /** A table for each body that has landmarks. */
+  const files = () =>
+    bodies
+      .filter((each) => marks.some((mark) => mark.body === each))
+      .map((body) => {
+        const name = body.source.file.replace(/\.[^.]*$/, "").replace(/[^\p{L}\p{N}._-]+/gu, "_");
+        return { name: `${name}_landmarks.csv`, text: written(body), landmarks: marks.filter((mark) => mark.body === body).map((mark) => mark.name) };
+      });
   element("pick-save").addEventListener("click", () => {
-    for (const body of bodies.filter((each) => marks.some((mark) => mark.body === each))) {
-      const name = body.source.file.replace(/\.[^.]*$/, "").replace(/[^\p{L}\p{N}._-]+/gu, "_");
-      save(new Blob([written(body)], { type: "text/csv;charset=utf-8" }), `${name}_landmarks.csv`);
-    }
+    for (const { name, text } of files()) save(new Blob([text], { type: "text/csv;charset=utf-8" }), name);
+  });
+  host.then((port) => {
+    element("pick-use").hidden = false;
+    element("pick-use").addEventListener("click", () => files().forEach((file) => port.postMessage(file)));
   });
   scene.drawn(draw);
   element("picking").hidden = false;

@@ -1,5 +1,5 @@
 // Bodies over time: poses, colours, visibility, opacity, section plane. Draws only when something changed.
-import { Color, Group, LessEqualDepth, Matrix4, Mesh, Scene, Vector3, WebGLRenderer } from "three";
+import { Color, Group, LessEqualDepth, Matrix4, Mesh, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 import { cameraFor } from "./camera.js";
 import { geometryOf } from "./geometry.js";
 import { linkageOf } from "./linkages.js";
@@ -183,9 +183,32 @@ async function bodyOf(described, maps, shared, data, inside) {
     material.uniforms.coloured.value = Boolean(map === null ? distance : amounts[map]);
     colour(frame);
   }
+
+  /** Colour faces that are named, those on the positive side of a plane (mm, in the frame of the file) apart (`scale`: mm of the unit of the file); null: none. */
+  function mark(named) {
+    const shown = named && named.count === faces.length / 3;
+    const uniforms = material.uniforms;
+    uniforms.marked.value = Boolean(shown);
+    body.marked = shown ? named.faces.reduce((sum, each) => sum + each, 0) : 0;
+    if (!shown) return;
+    for (let i = 0; i < faces.length; i++) code.array[i] = named.faces[Math.floor(i / 3)] ? 1 : 255;
+    code.needsUpdate = true;
+    uniforms.divided.value = Boolean(named.medial);
+    if (named.medial) uniforms.plane.value.copy(planeInScene(named.medial, named.scale, body));
+  }
   setOpacity(described.opacity);
   const source = described.source && { ...described.source, faces, exact };
-  return { group, geometry, poses, setOpacity, setMap, show, source, size: described.size };
+  const body = { group, geometry, poses, setOpacity, setMap, show, mark, marked: 0, source, size: described.size };
+  return body;
+}
+
+/** A plane [n, d] of the frame of the mesh file in that of the scene, which does not turn it; both in mm. */
+function planeInScene([x, y, z, offset], scale, { source, geometry, group }) {
+  const normal = new Vector3(x, y, z);
+  // the first corner of the first face, in both frames
+  const scene = new Vector3().fromBufferAttribute(geometry.getAttribute("position"), 0).applyMatrix4(group.matrix);
+  const file = new Vector3().fromArray(source.exact, 3 * source.faces[0]).multiplyScalar(scale);
+  return new Vector4(x, y, z, offset + normal.dot(scene) - normal.dot(file));
 }
 
 function matrixOf(poses, k, matrix = new Matrix4()) {

@@ -1,0 +1,102 @@
+"""Files of a gap case that is made step by step, read and written in a process of their own."""
+
+from __future__ import annotations
+
+import json
+import sys
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from geocontact.app.files import answer_of
+from geocontact.data.errors import InputError
+
+Row = Mapping[str, str]
+"""A column of the recordings as it was chosen: column, channel, unit."""
+
+
+def columns_of(files: Sequence[Path]) -> tuple[list[tuple[str, str]], list[str]]:
+    """Columns of the first file with their units, and what is wrong with any of the files or doubtful about it."""
+    found, wrong = answer_of(__name__, {"task": "columns", "files": list(map(str, files))})
+    if found is None:
+        return [], [wrong]
+    return [(name, unit) for name, unit in found["columns"]], found["said"]
+
+
+def write_trials(files: Sequence[Path], rows: Sequence[Row], folder: Path) -> list[str]:
+    """Write a trial for each file into `folder`, in place of what lay there; why not, empty where they are written."""
+    asked = {"task": "trials", "files": list(map(str, files)), "rows": list(map(dict, rows)), "folder": str(folder)}
+    found, wrong = answer_of(__name__, asked)
+    return [wrong] if found is None else found["said"]
+
+
+def settings_of(folder: Path) -> dict[str, Any]:
+    """What case.toml of a begun case says; empty where it cannot be read."""
+    found, _ = answer_of(__name__, {"task": "settings", "folder": str(folder)})
+    return dict(found["settings"]) if found is not None and "settings" in found else {}
+
+
+def answer_questions(folder: Path, answers: Mapping[str, Any]) -> str:
+    """Write answers into a case that was begun; why not, "" where they are written."""
+    found, wrong = answer_of(__name__, {"task": "answers", "folder": str(folder), **answers})
+    return wrong if found is None else "; ".join(found["said"])
+
+
+def _columns(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.chosen_columns import recorded_columns
+
+    first, *others = [Path(each) for each in asked["files"]]
+    columns = recorded_columns(first)
+    names = {name for name, _ in columns}
+    said = []
+    for file in others:
+        lacking = sorted(names - {name for name, _ in recorded_columns(file)})
+        said += [f"{file.name}: lacks {', '.join(lacking)}, which {first.name} has"] if lacking else []
+    return {"columns": columns, "said": said}
+
+
+def _trials(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.chosen_columns import ChosenColumn, write_chosen
+
+    folder, files = Path(asked["folder"]), [Path(each) for each in asked["files"]]
+    if len({file.stem for file in files}) < len(files):
+        raise InputError("", "trials", "two files have one name", "rename one: trials are named after their files")
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("*.csv"):
+        old.unlink()
+    for file in files:
+        write_chosen(file, [ChosenColumn(**row) for row in asked["rows"]], folder / f"{file.stem}.csv")
+    return {"said": []}
+
+
+def _answers(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case
+
+    numbers = {name: AnsweredNumber(**each) for name, each in asked["numbers"].items()}
+    answer_case(Path(asked["folder"]), asked["evaluation"], numbers, asked["noise"], simulator_allowed=True)
+    return {"said": []}
+
+
+def _settings(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.init.answers import begun_settings
+
+    return {"settings": begun_settings(Path(asked["folder"])), "said": []}
+
+
+def answer(asked: dict[str, Any]) -> dict[str, Any]:
+    """The answer to one question, in this process; a refusal stands in `said`."""
+    tasks = {"columns": _columns, "trials": _trials, "settings": _settings, "answers": _answers}
+    task = tasks[asked["task"]]
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            found = task(asked)
+        except InputError as error:
+            return {"columns": [], "said": [str(error)]}
+    doubts = dict.fromkeys(f"warning: {each.message}" for each in caught) if asked["task"] == "columns" else {}
+    return {**found, "said": [*found["said"], *doubts]}
+
+
+if __name__ == "__main__":
+    json.dump(answer(json.loads(sys.argv[1])), sys.stdout)

@@ -1,0 +1,85 @@
+"""What a begun case asks, and the answers as they were typed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from geocontact.app.elements import element, text
+from geocontact.app.form_view import CHECKED, VALUE
+
+ENDS = ("start", "lower", "upper", "unit")
+UNKNOWN = "?"
+
+
+class QuestionTable:
+    """Trials that are held out, numbers of the model with their bounds, noise of the sensors.
+
+    Parameters
+    ----------
+    settings
+        What case.toml says now.
+    outputs
+        Channels that the model predicts.
+    """
+
+    def __init__(self, settings: Mapping[str, Any], outputs: Sequence[str]) -> None:
+        self._trials = [*settings["calibration"], *settings["evaluation"]]
+        self._held = {name: name in settings["evaluation"] for name in self._trials}
+        self._numbers: dict[str, dict[str, Any]] = {}
+        self._noise = dict.fromkeys(outputs, "")
+        with element("div", "field"):
+            text("p", "Held out, nothing is fitted to them:")
+            for name in self._trials:
+                self._box(self._held, name, f"hold out {name}")
+        for name, said in settings.get("parameters", {}).items():
+            self._number(name, said)
+        for name in outputs:
+            with element("div", "field"), element("div", "in"):
+                text("span", f"noise of {name}")
+                self._word(self._noise, name, f"noise of {name}, SI unit; estimated where empty")
+
+    def answers(self) -> dict[str, Any]:
+        """Fields of `answer_case`; ValueError says which one is no number."""
+        numbers = {}
+        for name, typed in self._numbers.items():
+            ends = {end: _number(str(typed[end]), f"{end} of {name}") for end in ENDS[: 1 if typed["fixed"] else 3]}
+            numbers[name] = {"lower": None, "upper": None, **ends, "unit": str(typed["unit"]).strip()}
+        noise = {name: _number(typed, f"noise of {name}") for name, typed in self._noise.items() if typed.strip()}
+        evaluation = [name for name in self._trials if self._held[name]]
+        return {"evaluation": evaluation, "numbers": numbers, "noise": noise}
+
+    def _number(self, name: str, said: Mapping[str, Any]) -> None:
+        known = {end: "" if (value := said.get(end, "")) == UNKNOWN else str(value) for end in ENDS}
+        self._numbers[name] = {**known, "fixed": bool(said.get("fixed", False))}
+        with element("div", "field"), element("div", "in"):
+            text("span", name)
+            for end in ENDS:
+                self._word(self._numbers[name], end, f"{end} of {name}")
+            self._box(self._numbers[name], "fixed", f"{name} is known exactly")
+
+    def _word(self, kept: dict[str, Any], key: str, label: str) -> None:
+        made = element(
+            "input",
+            type="text",
+            defaultValue=str(kept[key]),
+            size=9,
+            aria_label=label,
+            placeholder=label.partition(" ")[0],
+        )
+        for event in ("change", "input"):
+            made.on(event, lambda e: kept.update({key: str(e.args)}), js_handler=VALUE)
+
+    def _box(self, kept: dict[str, Any], key: str, label: str) -> None:
+        with element("label"):
+            made = element("input", type="checkbox")
+            made.props.set_bool("checked", bool(kept[key]))
+            made.on("change", lambda e: kept.update({key: bool(e.args)}), js_handler=CHECKED)
+            text("span", f" {label}")
+
+
+def _number(typed: str, what: str) -> float:
+    try:
+        return float(typed)
+    except ValueError:
+        raise ValueError(f"{what} is {typed!r}: write a number" if typed.strip() else f"{what} is missing") from None

@@ -1,0 +1,130 @@
+"""A case from chosen columns of recordings, a shipped model and answers: files against numbers computed here."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import geocontact as gc
+from geocontact.analyses.gap.chosen_columns import ChosenColumn, recorded_columns, write_chosen
+from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case
+
+RADIUS = 0.037
+
+
+def knee_trials(folder: Path, count: int = 4) -> Path:
+    """Areas [mm^2] of two sides and loads of two Hertzian circles of E* = 6.8 MPa; synthetic."""
+    folder.mkdir()
+    time = 0.02 * np.arange(80)
+    for k in range(1, count + 1):
+        areas = 1e-6 * np.array([500.0 + 90.0 * np.sin((2 + k) * time), 380.0 + 60.0 * np.cos((3 + k) * time)])
+        force = 4.0 / 3.0 * 6.8e6 * (areas / np.pi) ** 1.5 / RADIUS
+        rows = np.column_stack([time, 40.0 + 20.0 * np.sin(time), 2.0 * np.cos(time), *(1e6 * areas), *(1e-3 * force)])
+        head = "time [s],flexion [deg],add,A_med [mm^2],A_lat [mm^2],F_med,F_lat"
+        np.savetxt(folder / f"t{k}.csv", rows, delimiter=",", header=head, comments="", fmt="%.12g")
+    return folder
+
+
+CHOSEN = (
+    ChosenColumn("flexion", "flexion", "deg"),
+    ChosenColumn("add", "adduction", "deg"),
+    ChosenColumn("A_med", "area_medial", "mm^2"),
+    ChosenColumn("A_lat", "area_lateral", "mm^2"),
+    ChosenColumn("F_med", "force_medial", "kN"),
+    ChosenColumn("F_lat", "force_lateral", "kN"),
+)
+
+
+def begun(folder: Path, young: float) -> Path:
+    """The case of these trials that `gap init` begins for the shipped knee."""
+    raw, data = knee_trials(folder / "raw"), folder / "data"
+    data.mkdir()
+    for file in sorted(raw.glob("*.csv")):
+        write_chosen(file, CHOSEN, data / file.name)
+    result = gc.init_gap_case(simulator="knee", data=data, number={"E_star": young, "R": RADIUS})
+    force = np.loadtxt(raw / "t1.csv", delimiter=",", skiprows=1)[:, 5]
+    off = 1e3 * float(np.sqrt(np.mean(force**2))) * abs(1.0 - young / 6.8e6)
+    assert result.errors["t1"]["force_medial"] == pytest.approx(off, rel=1e-6, abs=1e-6)
+    result.write(folder / "case")
+    return folder / "case"
+
+
+def test_the_first_run_of_a_shipped_model_is_that_of_its_formula(tmp_path: Path) -> None:
+    """No error at the modulus that made the forces; half of the force at half of it."""
+    for name, young in (("true", 6.8e6), ("half", 3.4e6)):
+        (tmp_path / name).mkdir()
+        begun(tmp_path / name, young)
+
+
+def test_answers_make_the_case_that_a_diagnosis_reads(tmp_path: Path) -> None:
+    case = begun(tmp_path, 5e6)
+    with pytest.raises(gc.InputError, match="lower"):
+        gc.read_gap_case(case)
+    numbers = {
+        "E_star": AnsweredNumber(5e6, 1e6, 5e7, "Pa"),
+        "R": AnsweredNumber(RADIUS, None, None, "m"),
+    }
+    before = (case / "case.toml").read_text("utf-8")
+    with pytest.raises(gc.InputError):
+        answer_case(case, ["t2"], {**numbers, "E_star": AnsweredNumber(5e6, 6e6, 5e7, "Pa")}, {})
+    assert (case / "case.toml").read_text("utf-8") == before  # a refused answer leaves the questions
+    with pytest.raises(gc.InputError, match="has no trial t9"):
+        answer_case(case, ["t9"], numbers, {})
+    answer_case(case, ["t2", "t4"], numbers, {"force_medial": 2.0})
+    found = tomllib.loads((case / "case.toml").read_text("utf-8"))
+    assert (found["calibration"], found["evaluation"]) == (["t1", "t3"], ["t2", "t4"])
+    assert found["system"] == "knee" and found["noise"] == {"force_medial": 2.0}
+    assert found["parameters"]["R"] == {"start": RADIUS, "fixed": True, "unit": "m"}
+    assert found["parameters"]["E_star"] == {"start": 5e6, "lower": 1e6, "upper": 5e7, "unit": "Pa"}
+    assert "?" not in (case / "case.toml").read_text("utf-8")
+    read = gc.read_gap_case(case)
+    force = 4.0 / 3.0 * 6.8e6 * (read.evaluation[0].column("area_medial") / np.pi) ** 1.5 / RADIUS
+    assert read.evaluation[0].column("force_medial") == pytest.approx(force, rel=1e-9)
+    assert gc.system_of(read).name == "knee"
+    answer_case(case, ["t4"], numbers, {})  # a second answer takes the place of the first
+    again = tomllib.loads((case / "case.toml").read_text("utf-8"))
+    assert again["calibration"] == ["t1", "t2", "t3"] and "noise" not in again
+
+
+def test_columns_keep_their_numbers_and_units_are_not_guessed(tmp_path: Path) -> None:
+    file = knee_trials(tmp_path / "raw") / "t1.csv"
+    assert recorded_columns(file) == [
+        ("flexion", "deg"), ("add", ""), ("A_med", "mm^2"), ("A_lat", "mm^2"), ("F_med", ""), ("F_lat", "")
+    ]  # fmt: skip
+    write_chosen(file, CHOSEN, tmp_path / "out.csv")
+    head, *rows = (tmp_path / "out.csv").read_text("utf-8").splitlines()
+    assert head == (
+        "time [s],flexion [deg],adduction [deg],area_medial [mm^2],area_lateral [mm^2],"
+        "force_medial [kN],force_lateral [kN]"
+    )
+    given = np.loadtxt(file, delimiter=",", skiprows=1)
+    assert (np.array([[float(cell) for cell in row.split(",")] for row in rows]) == given).all()
+    for wrong, words in (
+        (ChosenColumn("gone", "x", "N"), "no column 'gone'"),
+        (ChosenColumn("F_med", "x", ""), "has no unit"),
+        (ChosenColumn("flexion", "x", "rad"), "is in deg, not in rad"),
+    ):
+        with pytest.raises(gc.InputError, match=words):
+            write_chosen(file, [wrong], tmp_path / "wrong.csv")
+    with pytest.raises(gc.InputError, match="two columns are the channel x"):
+        write_chosen(file, [ChosenColumn("F_med", "x", "N"), ChosenColumn("F_lat", "x", "N")], tmp_path / "wrong.csv")
+    percent = tmp_path / "percent.csv"
+    percent.write_text("time [%],force [N]\n0,1\n50,2\n100,3\n")
+    with pytest.raises(gc.InputError, match="per cent"):
+        recorded_columns(percent)
+
+
+def test_a_shipped_model_has_channels_of_its_own_and_asks_for_its_numbers(tmp_path: Path) -> None:
+    raw, data = knee_trials(tmp_path / "raw"), tmp_path / "data"
+    data.mkdir()
+    for file in raw.glob("*.csv"):
+        write_chosen(file, CHOSEN, data / file.name)
+    with pytest.raises(gc.InputError, match=r"(E_star|R) is missing"):
+        gc.init_gap_case(simulator="knee", data=data)
+    with pytest.raises(gc.InputError, match="channels of the model knee are"):
+        gc.init_gap_case(simulator="knee", data=data, outputs="force_medial")
+    with pytest.raises(gc.InputError, match=r"there is no file 'ankle'.*elbow or knee"):
+        gc.init_gap_case(simulator="ankle", data=data)
