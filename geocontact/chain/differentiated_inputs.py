@@ -30,8 +30,8 @@ CORE = 0.8
 DEGREE = 3
 REMEMBERED = 32
 """Time axes whose weights are remembered."""
-PIECE = 2000
-"""Samples of the longest of them; at 200 Hz their weights take a megabyte."""
+PIECE = 4000
+"""Samples of the longest of them, such as inputs of a thinned trial; at 200 Hz their weights take two megabytes."""
 Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
 from geocontact.gap.selection.evidence import judged
-from geocontact.gap.selection.model_comparison import base_contender
+from geocontact.gap.selection.model_comparison import base_contender, discrepancy_basis
 from geocontact.gap.selection.surrogate import chosen, surrogate
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere
@@ -67,6 +68,27 @@ def test_coarse_steps_of_the_recorder_are_nothing_to_explain(elsewhere: Elsewher
 
 def test_the_stand_in_finds_nothing_where_nothing_is(elsewhere: Elsewhere) -> None:
     assert elsewhere(stood_in, None).nats < 3.0
+
+
+def test_samples_without_an_output_take_no_part() -> None:
+    """A push, of which half of the samples were measured, in stretches of a second: as in a thinned trial."""
+    case = elbow_case(seed=5, change=Bump(1.5, 8.0, 0.8))
+    for trial in (*case.calibration, *case.evaluation):
+        trial.signals.values[trial.time % 2.0 > 1.0, trial.signals.channels.index("force")] = np.nan
+    problem = problem_of(case, system_of(case))
+    base = base_contender(problem).judged
+    found = surrogate(problem, base)
+    damper = next(one for one in candidates(problem.system) if one.label == "damping")
+    values = {**base.model.values, **{p.name: 0.5 * p.upper for p in damper.parameters}}
+    bent = discrepancy_basis(problem, (damper,), replace(base.model, values=values))
+    assert found.nats > 10.0
+    for trial, parts in zip(
+        (*case.calibration, *case.evaluation), zip(found.predicted, bent, strict=True), strict=True
+    ):
+        measured = np.isfinite(trial.column("force"))
+        assert 0.4 < measured.mean() < 0.6
+        for part in parts:
+            assert len(part) == len(trial) and part[measured].any() and not part[~measured].any()
 
 
 def test_better_noise_alone_is_no_gain() -> None:

@@ -47,6 +47,21 @@ def test_without_variation_it_is_the_whitener() -> None:
     assert whitening.log_scale == layout.whitener(levels).log_scale
 
 
+def test_values_of_measured_samples_alone_are_whitened_as_among_all() -> None:
+    """Two channels, of which one is measured in every third sample of the first half, the other in every fifth."""
+    rng, time = np.random.default_rng(3), 0.05 * np.arange(60)
+    present = np.zeros((60, 2), bool)
+    present[:30:3, 0] = present[::5, 1] = True
+    still = np.zeros((60, 2, 1))
+    levels = NoiseLevels(np.full(2, 0.4), np.full((1, 2), 0.6), np.full((1, 2), 0.2), np.ones(2), np.array([1.0]))
+    heard = Instant(time, still, still, (SPECTRUM,))
+    whitener = Layout.of(time, present, heard, np.ones((60, 2)), np.zeros((60, 2))).whitener(levels)
+    samples = np.flatnonzero(present.any(axis=1))
+    values = rng.standard_normal((60, 2, 4))
+    assert len(samples) == 20
+    np.testing.assert_array_equal(whitener.among(samples, 2)(values[samples]), whitener(values))
+
+
 def test_evidence_is_that_of_the_dense_normal_distribution() -> None:
     rng = np.random.default_rng(2)
     design, spread, r = rng.standard_normal((40, 3)), np.array([0.5, 2.0, 0.0]), rng.standard_normal(40)

@@ -15,7 +15,8 @@ is said. Of other simulators nothing is known, and their inputs stay whole.
 
 Stretches begin at a low-discrepancy sequence within equal parts of a trial (multiples of the golden section, Kuipers &
 Niederreiter 1974, Uniform Distribution of Sequences, ch. 2), so that no period of a movement is met in one phase only;
-from trial to trial it goes on. A trial of hardly more than a stretch stays whole.
+from trial to trial it goes on. A trial of hardly more than a stretch stays whole. Where inputs stay for many
+more samples than a stretch has, as at 200 Hz, stretches are fewer and longer: inputs cost as much to simulate.
 """
 
 from __future__ import annotations
@@ -48,6 +49,10 @@ ROWS = 8_400
 """Measured samples of all outputs and trials that a diagnosis uses."""
 STRETCH = 60
 """Measured samples of a stretch: several memories of quick noise, a lag of a quarter of a second at 100 Hz and more."""
+AROUND = 2.2
+"""Samples of inputs around a stretch at the most, per sample of its own: where they are more, it is longer."""
+SPREAD = 5
+"""Stretches of a trial at the least, whatever lies around them: they still meet its phases and what drifts in it."""
 RATES = 14
 """Samples that rates of rates reach to either side where sampling is coarse (`chain.differentiated_inputs`)."""
 SETTLES = 1.2
@@ -85,12 +90,14 @@ def thinned_and_said(case: GapCase, system: System) -> tuple[GapCase, tuple[str,
             "which all channels move evenly; all figures are of means"
         )
         rows = means
-    fewer = thinned(case, outputs)
+    own = _own(case.system)
+    around = sum(reaches(case)) if own else 0.0
+    fewer = thinned(case, outputs, around)
     used = measured_rows(fewer, outputs)
     if used < rows:
-        where = f"in stretches of {STRETCH} that lie evenly over every trial"
+        where = f"in stretches of {_lengths(case, outputs, around)} that lie evenly over every trial"
         said.append(f"of {rows} samples of the outputs {used} are used, {where}; all figures are of these")
-        case = with_inputs_around(fewer, outputs, system.inputs) if _own(case.system) else fewer
+        case = with_inputs_around(fewer, outputs, system.inputs) if own else fewer
         seen, whole = (sum(map(len, (*each.calibration, *each.evaluation))) for each in (case, fewer))
         if seen < whole:
             lead, _ = reaches(fewer)
@@ -102,16 +109,18 @@ def thinned_and_said(case: GapCase, system: System) -> tuple[GapCase, tuple[str,
     return case, tuple(said)
 
 
-def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
-    """The case with at most about `ROWS` samples of its outputs; the same object where it has no more."""
+def thinned(case: GapCase, outputs: Sequence[str], around: float = 0.0) -> GapCase:
+    """The case with at most about `ROWS` samples of its outputs; the same object where it has no more.
+
+    `around` is how much time of inputs stays around each stretch [s].
+    """
     rows = measured_rows(case, outputs)
     if rows <= ROWS:
         return case
     share = ROWS / rows
 
     def fewer(number: int, trial: Trial) -> Trial:
-        most = max(int(np.isfinite(trial.column(name)).sum()) for name in outputs)
-        used = stretches(len(trial), share, round(STRETCH * len(trial) / max(most, 1)), number)
+        used = stretches(len(trial), share, _length(trial, _measured_share(trial, outputs), share, around), number)
         values = trial.signals.values.copy()
         columns = [trial.signals.channels.index(name) for name in outputs]
         for column in columns:
@@ -121,6 +130,28 @@ def thinned(case: GapCase, outputs: Sequence[str]) -> GapCase:
     fitted = len(case.calibration)
     trials = tuple(fewer(k, one) for k, one in enumerate((*case.calibration, *case.evaluation)))
     return replace(case, calibration=trials[:fitted], evaluation=trials[fitted:])
+
+
+def _measured_share(trial: Trial, outputs: Sequence[str]) -> float:
+    """Share of a trial's samples in which the output was measured that was measured most often."""
+    return max(1.0, *(np.isfinite(trial.column(name)).sum() for name in outputs)) / len(trial)
+
+
+def _length(trial: Trial, measured: float, share: float, around: float) -> int:
+    """Samples of a stretch: `STRETCH` measured ones, more where more than `AROUND` times as many inputs lie around.
+
+    A trial of which a `share` is used has `SPREAD` such longer stretches at the least.
+    """
+    wanted = min(around / (AROUND * float(np.median(np.diff(trial.time)))), share * len(trial) / SPREAD)
+    return round(max(STRETCH / measured, wanted))
+
+
+def _lengths(case: GapCase, outputs: Sequence[str], around: float) -> str:
+    """Measured samples of the shortest and of the longest stretch, in words."""
+    share, trials = ROWS / measured_rows(case, outputs), (*case.calibration, *case.evaluation)
+    measured = [_measured_share(trial, outputs) for trial in trials]
+    own = [round(part * _length(trial, part, share, around)) for trial, part in zip(trials, measured, strict=True)]
+    return f"{min(own)}" if min(own) == max(own) else f"{min(own)} to {max(own)}"
 
 
 def _own(system: str) -> bool:

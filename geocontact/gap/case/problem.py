@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.chain.system import FAR, System
 from geocontact.gap.case.refit import Measured, Refit, at, free
@@ -83,6 +84,12 @@ class Problem:
     def fitted(self) -> int:
         """How many free parameters the base model has: the first of every model."""
         return len(free(self.system))
+
+    @cached_property
+    def samples(self) -> tuple[Int[np.ndarray, " k"], ...]:
+        """Samples of each trial in which some output was measured, calibration first: few of a thinned trial's."""
+        present = (*self.calibration.present, *self.evaluation.present)
+        return tuple(np.flatnonzero(there.any(axis=1)) for there in present)
 
     def varied(self, jacobian: Sequence[Float[np.ndarray, "_ c p"]]) -> list[Float[np.ndarray, "_ c q"]]:
         """Per trial, what a unit of everything that differs from trial to trial changes in a prediction."""
@@ -173,6 +180,11 @@ class Problem:
             for whitener, varied in zip(noise.whiteners, self.varied(model.jacobian), strict=False)
         ]
 
+    def whitenings_of_samples(self, noise: Noise, model: Refit) -> list[Whitening]:
+        """The same for values of `samples` alone: what many columns are made for."""
+        whole = zip(self.whitenings(noise, model), noise.whiteners, self.samples, strict=False)
+        return [replace(each, whitener=own.among(rows, len(self.floor))) for each, own, rows in whole]
+
 
 @dataclass(frozen=True)
 class Noise:
@@ -185,6 +197,15 @@ class Noise:
     varies: Float[np.ndarray, " q"]
     surprise: float
     whiteners: tuple[Whitener, ...]
+
+
+def filled(part: Float[np.ndarray, "k ..."], samples: Int[np.ndarray, " k"], count: int) -> Float[np.ndarray, "t ..."]:
+    """What is known of some of `count` samples, 0 in the others."""
+    if len(samples) == count:
+        return part
+    out = np.zeros((count, *part.shape[1:]))
+    out[samples] = part
+    return out
 
 
 def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:

@@ -19,7 +19,7 @@ from geocontact.chain.differentiated_inputs import recorded
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.gap.case.noise_sources import usual_range
-from geocontact.gap.case.problem import Noise, Problem, evaluated
+from geocontact.gap.case.problem import Noise, Problem, evaluated, filled
 from geocontact.gap.case.refit import ENOUGH, ROUNDS, Refit, free, refit
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.levels import FEW, LEADING, TURNS
@@ -35,11 +35,11 @@ def discrepancy_basis(
     problem: Problem, candidates: tuple[Candidate, ...], model: Refit
 ) -> list[Float[np.ndarray, "_ c m"]]:
     """Discrepancy basis of each effect of a model in all trials, calibration first; weights have the standard deviation
-    1.
+    1. It is made of the samples that were measured, and 0 elsewhere.
     """
     everything = [*problem.calibration.trials, *problem.evaluation.trials]
     floor, base = problem.floor, problem.fitted
-    slopes = [j[..., :base] / floor[:, None] for j in model.jacobian]
+    slopes = [j[rows, :, :base] / floor[:, None] for j, rows in zip(model.jacobian, problem.samples, strict=True)]
     jacobian = np.concatenate([each.reshape(len(each) * len(floor), base) for each in slopes])
     monomials = _monomials(problem)
     made: list[list[np.ndarray]] = [[] for _ in everything]
@@ -71,7 +71,7 @@ def _of_one_effect(
     for measured in (problem.calibration, problem.evaluation):
         pairs = zip(measured.residuals(before, model.values), measured.residuals(after, model.values), strict=True)
         added += [(a - b) / problem.floor for a, b in pairs]
-    whole = np.concatenate([each.ravel() for each in added])
+    whole = np.concatenate([each[rows].ravel() for each, rows in zip(added, problem.samples, strict=True)])
     whole = whole - jacobian @ np.linalg.lstsq(jacobian, whole, rcond=None)[0]
     channels = len(problem.floor)
     net = whole.reshape(-1, channels)
@@ -84,11 +84,12 @@ def _of_one_effect(
     kept = left[:, singular > CLOSE * max(singular[0], 1e-300)]
     size = BENT * float(np.linalg.norm(whole)) / np.sqrt(max(kept.shape[1], 1))
     out = (kept * size).reshape(len(net), channels, -1) * problem.floor[:, None]
-    return np.split(out, np.cumsum([len(b) for b in monomials])[:-1])
+    parts = np.split(out, np.cumsum([len(b) for b in monomials])[:-1])
+    return [filled(part, rows, len(a)) for part, rows, a in zip(parts, problem.samples, added, strict=True)]
 
 
 def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
-    """Monomials of every input's position and rate, each over its range, and of time within the trial."""
+    """Monomials of every input's position and rate, each over its range, and of time within the trial, of `samples`."""
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
     movements = [recorded(t.signals, problem.system.inputs, problem.system.motion.reach) for t in trials]
     columns = [[np.ones(len(t))] for t in trials]
@@ -100,7 +101,7 @@ def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
     for made, t in zip(columns, trials, strict=True):
         phase = 2.0 * (t.time - t.time[0]) / (t.time[-1] - t.time[0]) - 1.0
         made += [phase**k for k in TIMES]
-    return [np.stack(made, axis=1) for made in columns]
+    return [np.stack(made, axis=1)[rows] for made, rows in zip(columns, problem.samples, strict=True)]
 
 
 def _within(values: list[Float[np.ndarray, " _"]]) -> list[Float[np.ndarray, " _"]]:

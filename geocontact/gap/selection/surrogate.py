@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.gap.case.noise_sources import usual_range
-from geocontact.gap.case.problem import Problem
+from geocontact.gap.case.problem import Problem, filled
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
@@ -29,6 +30,10 @@ ALONE = (5, 12)  # bumps over a trial that are a trial's own
 STRETCHES = 8  # of a trial, that parameters may differ between
 RENEWED = 2  # times that the noise is estimated anew with the surrogate in place
 DEEPEST = 24  # bumps that are taken at most
+Samples = Sequence[Int[np.ndarray, " k"]]
+"""Which samples of each trial, in increasing order."""
+Features = Callable[[Samples], list[Float[np.ndarray, "_ c m"]]]
+"""Features at some samples of each trial; those of one family at a time, since they are thousands of columns."""
 SIZES = (0.3, 1.0, 3.0, 10.0, 30.0)  # standard deviation of the weights, in noise levels of the channel
 
 
@@ -47,7 +52,7 @@ class Surrogate:
     price
         Of choosing family, bumps and sizes [nats].
     predicted
-        What it predicts of the residual of every trial, in the channels' units.
+        What it predicts of the residual of every trial, in the channels' units; 0 in samples without an output.
     by_calibration
         The same with weights from the calibration trials alone.
     """
@@ -76,19 +81,21 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
     price = float(np.log(len(made) * (2 + RENEWED)))
 
     def under(one: Judged) -> Surrogate:
-        whitenings = problem.whitenings(one.noise, one.model)
+        whitenings = problem.whitenings_of_samples(one.noise, one.model)
         unbent = _without(one.whitened_basis)
         known, residual = unbent(one.model.whitened_jacobian * spread), unbent(one.model.whitened[:, None])[:, 0]
         nothing = tuple(np.zeros_like(each) for each in one.model.residuals)
         best = Surrogate("", 0.0, 0.0, 0.0, nothing, nothing)
         for name, features in made:
-            white = unbent(np.concatenate([_whitened(w, part) for w, part in zip(whitenings, features, strict=True)]))
+            parts = features(problem.samples)
+            white = unbent(np.concatenate([_whitened(w, part) for w, part in zip(whitenings, parts, strict=True)]))
             found = chosen(residual, white, known, one.fitted_rows, price)
             if found.gain - found.price > best.nats:
                 predicted, by_calibration = (
                     tuple(
-                        part[..., found.columns] @ told.weights + jacobian @ (spread * told.shift)
-                        for part, jacobian in zip(features, one.model.jacobian, strict=True)
+                        filled(part[..., found.columns] @ told.weights, rows, len(jacobian))
+                        + jacobian @ (spread * told.shift)
+                        for part, rows, jacobian in zip(parts, problem.samples, one.model.jacobian, strict=True)
                     )
                     for told in (found.by_all, found.by_calibration)
                 )
@@ -211,36 +218,56 @@ def chosen(
     return Choice(taken, told(slice(None)), told(slice(rows)), gain, part, price + each * len(taken))
 
 
-def families(problem: Problem) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+def families(problem: Problem) -> Iterator[tuple[str, Features]]:
     """Name and features of every family: one array per trial, calibration first, channels with weights of their own."""
     trials = problem.calibration.trials + problem.evaluation.trials
     system, scale = problem.system, problem.floor_of_noise
     movements = [recorded(trial.signals, system.inputs, system.motion.reach) for trial in trials]
     for row, name in enumerate(system.inputs):
-        position = [m.position[row] for m in movements]
-        rate = [m.rate[row] for m in movements]
-        yield f"position of {name}", [_per_channel(bumps, scale) for bumps in _line(position, ALONG)]
-        yield f"rate of {name}", [_per_channel(bumps, scale) for bumps in _line(rate, ALONG)]
-        both = zip(_line(position, ACROSS, 1), _line(rate, ACROSS, 1), strict=True)
-        crossed = [(a[:, :, None] * b[:, None, :]).reshape(len(a), -1) for a, b in both]
-        yield f"position and rate of {name}", [_per_channel(bumps, scale) for bumps in crossed]
-    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
-    yield "time within the trial", [_per_channel(bumps, scale) for bumps in _line(phase, THROUGH)]
+        position, rate = [m.position[row] for m in movements], [m.rate[row] for m in movements]
+        yield f"position of {name}", partial(_bumps, position, ALONG, scale)
+        yield f"rate of {name}", partial(_bumps, rate, ALONG, scale)
+        yield f"position and rate of {name}", partial(_crossed, position, rate, scale)
+    yield "time within the trial", partial(_bumps, phases(problem), THROUGH, scale)
 
 
-def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, list[Float[np.ndarray, "_ c m"]]]]:
+def lonely(problem: Problem, judged: Judged) -> Iterator[tuple[str, Features]]:
     """Families whose weights are a trial's own: a disturbance in it, parameters that change during it."""
-    trials = problem.calibration.trials + problem.evaluation.trials
-    phase = [(t.time - t.time[0]) / (t.time[-1] - t.time[0]) for t in trials]
-    bumps = [_per_channel(each, problem.floor_of_noise) for each in _line(phase, ALONE)]
-    yield "stretches of single trials", _apart(bumps)
+    phase, scale = phases(problem), problem.floor_of_noise
     count, edges = problem.fitted, np.arange(1, STRETCHES) / STRETCHES
-    changing = [
-        np.concatenate([j[..., :count] * problem.usual[:count] * (p > edge)[:, None, None] for edge in edges], axis=-1)
-        for j, p in zip(judged.model.jacobian, phase, strict=True)
-    ]
-    yield "parameters that change during a trial", _apart(changing)
+
+    def changing(samples: Samples) -> list[Float[np.ndarray, "_ c m"]]:
+        every = zip(judged.model.jacobian, phase, samples, strict=True)
+        own = ((j[rows, :, :count] * problem.usual[:count], p[rows]) for j, p, rows in every)
+        return [np.concatenate([j * (p > edge)[:, None, None] for edge in edges], axis=-1) for j, p in own]
+
+    yield "stretches of single trials", lambda samples: _apart(_bumps(phase, ALONE, scale, samples))
+    yield "parameters that change during a trial", lambda samples: _apart(changing(samples))
     yield "parameters that change at one moment of every trial", changing
+
+
+def phases(problem: Problem) -> list[Float[np.ndarray, " _"]]:
+    """Time within each trial, 0 at its beginning and 1 at its end."""
+    times = [trial.time for trial in problem.calibration.trials + problem.evaluation.trials]
+    return [(time - time[0]) / (time[-1] - time[0]) for time in times]
+
+
+def _bumps(
+    values: Sequence[Float[np.ndarray, " _"]], counts: Sequence[int], scale: Float[np.ndarray, " c"], samples: Samples
+) -> list[Float[np.ndarray, "_ c m"]]:
+    """Bumps over what has these values, for each channel."""
+    return [_per_channel(bumps, scale) for bumps in _line(values, counts, samples)]
+
+
+def _crossed(
+    position: Sequence[Float[np.ndarray, " _"]],
+    rate: Sequence[Float[np.ndarray, " _"]],
+    scale: Float[np.ndarray, " c"],
+    samples: Samples,
+) -> list[Float[np.ndarray, "_ c m"]]:
+    """Bumps over position and rate together, for each channel."""
+    both = zip(_line(position, ACROSS, samples, 1), _line(rate, ACROSS, samples, 1), strict=True)
+    return [_per_channel((a[:, :, None] * b[:, None, :]).reshape(len(a), -1), scale) for a, b in both]
 
 
 def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray, "_ c k"]]:
@@ -254,14 +281,14 @@ def _apart(features: list[Float[np.ndarray, "_ c m"]]) -> list[Float[np.ndarray,
 
 
 def _line(
-    values: list[Float[np.ndarray, " _"]], counts: Sequence[int], closer: int = 2
+    values: Sequence[Float[np.ndarray, " _"]], counts: Sequence[int], samples: Samples, closer: int = 2
 ) -> list[Float[np.ndarray, "_ m"]]:
     """Gaussian bumps, evenly spaced over the range that 98 % of the samples are in.
 
     As wide as their distance if there were `counts` of them; they stand `closer` times as close: none falls in between.
     """
     low, high = usual_range(np.concatenate(values))
-    clipped = [np.clip(v, low, high)[:, None] for v in values]
+    clipped = [np.clip(v[rows], low, high)[:, None] for v, rows in zip(values, samples, strict=True)]
     made = []
     for count in counts:
         centres = np.linspace(low, high, closer * (count - 1) + 1)

@@ -168,6 +168,11 @@ class Whitener:
         flat = values.reshape(values.shape[0] * values.shape[1], values.shape[-1])
         return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
 
+    def among(self, samples: Int[np.ndarray, " k"], channels: int) -> Whitener:
+        """The same for values of these samples alone, in increasing order; they hold all measured ones."""
+        places = (np.searchsorted(samples, rows // channels) * channels + rows % channels for rows in self.rows)
+        return replace(self, rows=tuple(places))
+
     def coloured(self, independent: Float[np.ndarray, "n ..."]) -> Float[np.ndarray, "n ..."]:
         """The way back: noise of these levels from independent numbers, in the order of the rows."""
         from scipy.linalg import solve_triangular

@@ -88,6 +88,32 @@ def test_stretches_of_what_is_measured_now_and_then_are_longer() -> None:
     assert len(runs) > 10 and min(map(len, runs)) >= STRETCH
 
 
+def test_stretches_are_longer_where_many_inputs_stay_around_them() -> None:
+    """1.59 s around each at 200 Hz are 318 samples, five times as many as a stretch of 60 has."""
+    case = case_of(100_000, 5)
+    quick = tuple(replace(one, signals=replace(one.signals, time=0.5 * one.time)) for one in case.calibration)
+    case = replace(case, calibration=quick, evaluation=())
+    rows = {}
+    for around in (0.0, 1.59):
+        (few, *_) = thinned(case, ("force",), around).calibration
+        edges = np.flatnonzero(np.diff(np.isfinite(few.column("force")).astype(int), prepend=0, append=0))
+        lengths = np.diff(edges)[::2]
+        assert lengths.min() == lengths.max() == (60 if around == 0.0 else round(318 / 2.2))
+        assert lengths.sum() == pytest.approx(0.5 * ROWS, rel=0.03)
+        rows[around] = len(lengths) * (lengths[0] + 318)
+    assert rows[1.59] < 0.52 * rows[0.0]
+
+
+def test_a_trial_has_five_stretches_where_so_many_fit() -> None:
+    """Of 2 s around each, a stretch would be 182 samples long at 200 Hz; a fifth of the 700 in use is 140."""
+    case = case_of(100_000, 12)
+    quick = tuple(replace(one, signals=replace(one.signals, time=0.5 * one.time)) for one in case.calibration)
+    case = replace(case, calibration=6 * quick, evaluation=())
+    for few in thinned(case, ("force",), 2.0).calibration:
+        edges = np.diff(np.isfinite(few.column("force")).astype(int), prepend=0, append=0)
+        assert (edges == 1).sum() == 5 and (edges != 0).sum() == 10
+
+
 def test_nothing_is_said_where_nothing_was_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     case = elbow_case("", seed=1)
     write_gap_case(case, tmp_path / "case")
