@@ -12,6 +12,7 @@ import argparse
 import os
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,14 +46,14 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def written(seed: int, folder: Path) -> None:
-    """A case of each kind and system of the benchmark's own generator."""
+def written(seed: int, folder: Path, systems: Sequence[str] | None = None, kinds: Sequence[str] = KINDS) -> None:
+    """A case of each kind of the benchmark's own generator, of all systems by default."""
     from geocontact.gap_benchmark.drawing import SYSTEMS, drawn, lots
     from geocontact.gap_benchmark.synthetic.cases import NotFoundError
     from geocontact.io.cases.gap_case_writer import write_gap_case
 
-    for system in SYSTEMS:
-        for kind in KINDS:
+    for system in systems or SYSTEMS:
+        for kind in kinds:
             (lot,) = lots([system], 1, [kind], seed)
             try:
                 write_gap_case(drawn(lot).case, folder / f"{system}_{kind}")

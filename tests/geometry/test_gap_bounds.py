@@ -126,18 +126,20 @@ def test_no_signed_distance_is_below_the_rise_over_a_face(name):
 def test_few_edges_and_faces_are_measured_one_by_one(offset, monkeypatch):
     """Nearly conforming bodies of 3500 faces each, apart and overlapping: bounds leave less than one in twenty."""
     counted = {"edges": 0, "faces": 0}
-    edge_gap, quartered = gap.edge_gap, depth.quartered
+    edge_gap, deepest = gap.edge_gap, depth.deepest
 
     def edges(tree, start, *rest):
         counted["edges"] += len(start)
         return edge_gap(tree, start, *rest)
 
-    def faces(corners, *rest):
-        counted["faces"] += len(corners)
-        return quartered(corners, *rest)
+    def faces(*given):
+        before = given[-1][1]
+        found = deepest(*given)
+        counted["faces"] += given[-1][1] - before
+        return found
 
     monkeypatch.setattr(gap, "edge_gap", edges)
-    monkeypatch.setattr(depth, "quartered", faces)
+    monkeypatch.setattr(depth, "deepest", faces)
     femur, insert = surface(FEMUR, "femur"), surface(INSERT, "insert")
     pair = ContactPair(femur, insert, Settings(thresholds=(4 * MM,)))
     rest = settle(femur, insert, RigidTransform.from_translation([-3 * MM, 60 * MM, 0.0]), (0.0, -1.0, 0.0))
@@ -146,7 +148,7 @@ def test_few_edges_and_faces_are_measured_one_by_one(offset, monkeypatch):
 
 
 def test_open_bodies_are_never_searched_for_depth(monkeypatch):
-    monkeypatch.setattr(depth, "promising", lambda *_: pytest.fail("depth was asked for"))
+    monkeypatch.setattr(depth, "deepest", lambda *_: pytest.fail("depth was asked for"))
     one, other = surface(BODIES["open block"]), surface(BODIES["open cup"])
     rest, out = touching(one, other, 3)
     found = ContactPair(one, other).at(rest.rotation.as_matrix(), np.asarray(rest.translation) - 2e-3 * out)

@@ -27,8 +27,9 @@ from geocontact.geometry.contact_area.area import (
     counted_area,
 )
 from geocontact.geometry.contact_area.gap import Edges, Facing, Rise, least_distance
-from geocontact.geometry.contact_area.sampled import Distances, Sampled, compact, measure, quartered
-from geocontact.geometry.kernels.floor import promising
+from geocontact.geometry.contact_area.sampled import Distances, Sampled, measure
+from geocontact.geometry.inside_outside import resolve_inside_outside
+from geocontact.geometry.kernels.floor import deepest
 from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.union import UnitedSurface
@@ -57,14 +58,11 @@ def lowest_signed_distance(
     known
         A signed distance that is attained elsewhere; only what lies deeper is looked for.
     """
-    if len(sampled.faces) == 0:
-        return known
-    points = _unlimited(other, distances)
-    faces, edges, signed = sampled.faces, sampled.edges, points.signed
-    best = min(known, float(signed[faces].min()))
-    above = rise.above
-    for _ in range(DIVISIONS):
-        keep, floor = promising(
+    d = _unlimited(other, distances)
+    faces, edges, points, signed, slot = sampled.faces, sampled.edges, d.points, d.signed, d.slot
+    best, above, effort = known, rise.above, np.array([DIVISIONS, 0])
+    while len(faces):
+        best, faces, edges, points, signed, slot, side = deepest(
             other.tree,
             rise.place,
             above,
@@ -72,19 +70,19 @@ def lowest_signed_distance(
             rise.signed,
             faces,
             edges,
-            points.points,
+            points,
             signed,
-            points.slot,
-            best - TOLERANCE,
+            slot,
+            best,
+            TOLERANCE,
+            CANDIDATES,
+            effort,
         )
-        if len(keep) == 0:
-            break
-        if len(keep) > CANDIDATES:
-            keep = keep[np.argsort(floor, kind="stable")[:CANDIDATES]]
-        faces, points = quartered(*compact(faces[keep], points), other, np.inf)
-        edges, signed = np.repeat(0.5 * edges[keep], 4, axis=0), points.signed
-        best = min(best, float(signed.min()))
-        above = rise.above[:0]  # known for triangles as given, worth finding anew for smaller ones
+        above = rise.above[:0]
+        if len(faces):  # sides of new points, three behind the corners of each divided face, are asked for
+            new = np.arange(len(points)).reshape(-1, 6)[:, 3:].ravel()
+            distance = np.abs(signed[new])
+            signed[new] = distance * resolve_inside_outside(other, points[new], side[new], distance)[0]
     return best
 
 

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from geocontact.geometry.contact_area.sampled import Distances
 from geocontact.geometry.kernels.batch import CHUNK, chunk_spheres, signed_distances
-from geocontact.geometry.kernels.gap import edge_gap, first_gap, near_edges
+from geocontact.geometry.kernels.gap import edge_gap, near_edges
 from geocontact.geometry.surface import Surface
 
 USUAL = 0.9
@@ -100,7 +100,7 @@ def least_distance(one: Facing, two: Facing) -> float:
     """
     best = min(_nearest_found(one), _nearest_found(two))
     if not np.isfinite(best):
-        best = first_gap(one.other.tree, one.distances.points, CHUNK)
+        best = _of_some(one)
     known = []
     for side in (one, two):
         distance, slot = _measured(side, best)
@@ -116,6 +116,13 @@ def least_distance(one: Facing, two: Facing) -> float:
 def _nearest_found(side: Facing) -> float:
     d = side.distances
     return float(np.where(d.slot >= 0, d.distance, np.inf).min())
+
+
+def _of_some(side: Facing) -> float:
+    """Least distance of one vertex in CHUNK, measured however far it is [m]."""
+    points = np.ascontiguousarray(side.distances.points[::CHUNK])
+    limit = np.full(len(points), np.inf)
+    return float(signed_distances(side.other.tree, points, limit, chunk_spheres(points, limit), False)[0].min())
 
 
 def _measured(side: Facing, best: float) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:

@@ -8,6 +8,7 @@ from geocontact.geometry.kernels.compile import kernel
 from geocontact.geometry.kernels.tree import in_box, nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import closest_point
 
+SHORT = 1.0 - 1e-9  # balls that are free of the surface are taken as smaller by this share
 CHUNK = 32  # points that are dismissed together when none of them can be near
 
 
@@ -56,7 +57,9 @@ def signed_distances(tree, points, limit, sphere, signed):
 
     Beyond its limit a point has slot -1 and its limit as distance (the true distance is not smaller). side is 1
     outside, -1 inside, 0 undecided; always 1 when not `signed`. `sphere` (from `chunk_spheres`, in the same frame)
-    lets whole chunks be dismissed, and bounds the search of the others: distance is 1-Lipschitz.
+    lets whole chunks be dismissed, and bounds the search of the others: distance is 1-Lipschitz. The balls of the
+    known distance about the middle of a chunk and of the limit about a point are free of the surface: a point beyond
+    its limit has the middle's side where they meet.
     """
     n = len(points)
     distance = np.empty(n)
@@ -103,7 +106,7 @@ def signed_distances(tree, points, limit, sphere, signed):
                 closest[i, 0], closest[i, 1], closest[i, 2], which = side_of(leaves, slots, normal, row, place, x, y, z)
                 if signed:
                     side[i] = which
-            elif signed and away >= limit[i]:  # something may lie between the point and the middle of its chunk
+            elif signed and away >= (limit[i] + middle) * SHORT:  # what the balls about both leave may be crossed
                 side[i] = 1
                 if in_box(root, x, y, z):
                     _, place = nearest(boxes, child, leaves, fill, x, y, z, np.inf, nodes, keys, square, fan)

@@ -1,18 +1,123 @@
-"""Which triangles can hold a point with a signed distance below a given one."""
+"""The least signed distance of triangles to a closed surface: which of them can hold it, divided until none can."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, part
+from geocontact.geometry.kernels.quarter import ROUNDING, SLACK
 from geocontact.geometry.kernels.rise import free_above, height_within, plane_of, rise_of, size_of
-from geocontact.geometry.kernels.tree import offset
+from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import closest_point
 
 MARGIN = 0.25  # edges of a triangle that the radius about it leaves for the rise
 
 
 @kernel
+def deepest(tree, place, above, reach, use, faces, edges, points, signed, slot, best, tolerance, most, effort):
+    """The less of `best` and the least signed distance of the faces, within `tolerance`.
+
+    Faces that can be deeper are divided into their quarters, at most `most` of them at a time. effort (2,), written
+    here: how often that may happen again, and how many have been divided so far. The arguments up to slot are those of
+    `promising`. Without `use`, or where normals do not give the side of a new point, it stops for the caller to find
+    the sides. Returns best and, where it stopped for that, the quarters: faces (k, 3), edges (k, 3), points, signed,
+    slot as they were given, and side (n,), 1 outside, -1 inside, 0 in doubt. Points are six for each divided face: its
+    corners, whose sides are known, and the middles of its edges.
+    """
+    side = np.empty(0, np.int8)
+    while True:
+        for f in range(len(faces)):
+            best = min(best, signed[faces[f, 0]], signed[faces[f, 1]], signed[faces[f, 2]])
+        keep, floor = promising(tree, place, above, reach, use, faces, edges, points, signed, slot, best - tolerance)
+        if len(keep) == 0 or effort[0] == 0:
+            return best, faces[:0], edges[:0], points, signed, slot, side
+        keep = _lowest(keep, floor, most)
+        faces, edges, points, signed, slot = _taken(keep, faces, edges, points, signed, slot)
+        side = np.empty(len(points), np.int8)
+        asked = _measured(tree, points, signed, slot, side)
+        effort[0] -= 1
+        effort[1] += len(keep)
+        above = above[:0]  # known for triangles as given, worth finding anew for smaller ones
+        if asked or not use:
+            return best, faces, edges, points, signed, slot, side
+
+
+@inner
+def _lowest(keep, floor, most):
+    """Those of `keep` with the lowest floors, at most `most` of them."""
+    bar, low, count = np.inf, np.inf, len(keep)
+    if count > most:
+        bar = -np.inf
+        for each in floor:
+            bar, low = max(bar, each), min(low, each)
+    while count > most and low < bar:
+        bar = low + 0.5 * (bar - low)
+        count = 0
+        for each in floor:
+            count += each <= bar
+    count = 0
+    for k in range(len(keep)):
+        if floor[k] <= bar and count < most:
+            keep[count] = keep[k]
+            count += 1
+    return keep[:count]
+
+
+@inner
+def _taken(keep, faces, edges, points, signed, slot):
+    """Quarters of the faces in `keep`, and six points of each: its corners, and its edges' middles, to be measured.
+
+    The quarters are similar to their parent, so their edges are half of its edges.
+    """
+    n = len(keep)
+    quarters, halves = np.empty((4 * n, 3), np.int64), np.empty((4 * n, 3))
+    placed, known, where = np.empty((6 * n, 3)), np.empty(6 * n), np.empty(6 * n, np.int64)
+    for q in range(n):
+        for c in range(3):
+            corner = faces[keep[q], c]
+            i, j = faces[keep[q], (c + 1) % 3], faces[keep[q], (c + 2) % 3]
+            known[6 * q + c], where[6 * q + c] = signed[corner], slot[corner]
+            known[6 * q + 3 + c], where[6 * q + 3 + c] = np.inf, -1
+            for k in range(3):
+                placed[6 * q + c, k] = points[corner, k]
+                placed[6 * q + 3 + c, k] = 0.5 * (points[i, k] + points[j, k])
+                # corner c first, as in the face, between the middles of the edges beside it
+                quarters[4 * q + c, k] = 6 * q + (c if k == c else 6 - c - k)
+                halves[4 * q + c, k] = halves[4 * q + 3, k] = 0.5 * edges[keep[q], k]
+            quarters[4 * q + 3, c] = 6 * q + 3 + c
+    return quarters, halves, placed, known, where
+
+
+@inner
+def _measured(tree, points, signed, slot, side):
+    """Fill in what is not known of the middles of edges, and say whether the side of one of them is in doubt.
+
+    A middle is searched for as far as the ends of its edge allow: distance is 1-Lipschitz.
+    """
+    nodes, keys, square, fan = scratch()
+    asked = False
+    for m in range(len(points)):
+        if m % 6 < 3:
+            side[m] = 1
+            continue
+        first = m - m % 6
+        i, j = first + (m % 6 - 2) % 3, first + (m % 6 - 1) % 3
+        x, y, z = points[m, 0], points[m, 1], points[m, 2]
+        half = np.sqrt((x - points[i, 0]) ** 2 + (y - points[i, 1]) ** 2 + (z - points[i, 2]) ** 2)
+        nearby = min(abs(signed[i]) if slot[i] >= 0 else np.inf, abs(signed[j]) if slot[j] >= 0 else np.inf)
+        limit = (nearby + half) * (1.0 + SLACK) + ROUNDING
+        d2, found = nearest(
+            tree.boxes, tree.child, tree.leaves, tree.fill, x, y, z, limit * limit, nodes, keys, square, fan
+        )
+        _, _, _, side[m] = side_of(tree.leaves, tree.slots, tree.normal, tree.row, found, x, y, z)
+        signed[m], slot[m] = np.sqrt(d2), tree.slots[found]
+        if side[m] < 0:
+            signed[m] = -signed[m]
+        asked = asked or side[m] == 0
+    return asked
+
+
+@part
 def promising(tree, place, above, reach, use, faces, edges, points, signed, slot, bar):
     """Faces that may reach below `bar` <= 0 and, for each, a value that no point of it is below.
 

@@ -21,29 +21,6 @@ HALVINGS = 12  # an edge is divided at most this often before faces are looked a
 
 
 @kernel
-def first_gap(tree, points, every):
-    """Least distance of every `every`-th point to the surface: what the least of all distances is not above."""
-    nodes, keys, square, fan = scratch()
-    best2 = np.inf
-    for i in range(0, len(points), every):
-        best2, _ = nearest(
-            tree.boxes,
-            tree.child,
-            tree.leaves,
-            tree.fill,
-            points[i, 0],
-            points[i, 1],
-            points[i, 2],
-            best2,
-            nodes,
-            keys,
-            square,
-            fan,
-        )
-    return np.sqrt(best2)
-
-
-@kernel
 def near_edges(tree, place, above, below, reach, signed, ends, length, points, distance, slot, bar):
     """Edges that may come nearer than `bar`, and for each a distance that no point of it is below.
 
