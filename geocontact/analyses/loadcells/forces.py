@@ -179,7 +179,7 @@ class RecordedCells:
         return frame_of({"time [s]": self.forces.time, **columns})
 
 
-SHARE = 0.25  # of the largest total force, at which load sets in unless told otherwise
+SHARE = 0.25  # of the largest total force, at which load sets in by default
 SIDES = ("medial", "lateral", "total")
 FINDERS = {STRIDE: strides, STANCE: loaded_spans}
 
@@ -199,7 +199,7 @@ def cuts_asked_for(
 ) -> list[Cut]:
     """Every cycle of every recording, those given or those found; an empty list where none are asked for.
 
-    Cycles across a gap of a recording are left out and told.
+    Cycles across a gap of a recording are left out, with a warning.
     """
     if o.cycles is None and given is None:
         return []
