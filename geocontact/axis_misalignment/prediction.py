@@ -157,6 +157,6 @@ def residuals_of(recordings: Sequence[ElbowRecording], data: Binned, e: ElbowFit
 
 
 def mirrored_r2(e: ElbowFit) -> float:
-    """R² that the same model reaches on the force turned over: near that of the fit where the sign is not told."""
+    """R² that the same model reaches on the force turned over: near the fit's where the sign is not identified."""
     turned = estimated(e.problem.measuring(-e.problem.force))
     return r_squared(-e.problem.force, turned.predicted)

@@ -189,7 +189,7 @@ def _scores(data: Binned, e: ElbowFit) -> tuple[Float[np.ndarray, "g p"], int]:
 
 @dataclass(frozen=True, eq=False)
 class Separability:
-    """How far a yielding fixation of the upper arm can be told from a softer cuff.
+    """How far a yielding fixation of the upper arm is separable from a softer cuff.
 
     Parameters
     ----------

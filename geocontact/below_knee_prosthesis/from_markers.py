@@ -314,7 +314,7 @@ def walked(seen: MarkerTrajectories, leg: Leg, *, cutoff: float | None, gap_limi
 
 
 def functional_hip(seen: MarkerTrajectories, pelvis: Float[np.ndarray, "4 3"]) -> FunctionalCentre:
-    """Hip centre in the pelvis' frame, in which its markers have these places [m]; InputError where it is not told."""
+    """Hip centre in the pelvis' frame, in which its markers have these places [m]; InputError where there is none."""
     places = [seen.of(BODIES[body]) for body in ("pelvis", "thigh")]
     try:
         one, known, _ = segment_poses(places[0], pelvis)

@@ -1,6 +1,6 @@
 """Whether a force plate is under a foot, carries a walking person, and runs on the markers' clock.
 
-The clock is told by when the sole is on the floor beside when the plate is loaded.
+The clock is checked by when the sole is on the floor beside when the plate is loaded.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ from geocontact.loads.sphere_set import SphereLoads
 TOLERANCE, FIRST = 3e-5, 1e-4
 """Error allowed in a step [m, rad, m/s, rad/s], plus as much of each one's size, and first step [s]."""
 SAMPLING = 500.0
-"""Hz; at which the stance is told."""
+"""Hz; at which the stance is sampled."""
 GATE = 20.0
 """N; below it there is no centre of pressure and no stance."""
 

@@ -50,7 +50,7 @@ def _in_a_group(token: str, group: App) -> str:
 
 
 def help_of(chain: Iterable[str]) -> str:
-    """Where the options of a command are told."""
+    """Where the options of a command are described."""
     return f"see {' '.join((NAME, *chain))} --help"
 
 

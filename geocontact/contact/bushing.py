@@ -11,7 +11,7 @@ such a spring by 87 rad: `PRINTED` has these numbers, `SOCKET` a thousand times 
 degrees. Its 20 N/mm and 10 N s/mm for the translations are taken as printed: under 900 N they creep with a time
 constant of 0.5 s, to 34 mm after 0.7 s.
 
-A limit of travel or speed is told, not kept: `beyond` says where a motion goes past it. What holds a socket at its
+A limit of travel or speed is stated, not kept: `beyond` says where a motion goes past it. What holds a socket at its
 limit is no part of this law (`contact.joint_stop` is one that does).
 """
 

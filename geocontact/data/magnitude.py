@@ -9,5 +9,5 @@ from geocontact.data.plausible import LARGEST_MEANT
 
 
 def too_large(values: Float[np.ndarray, "*shape"]) -> Bool[np.ndarray, "*shape"]:
-    """Which of the finite values are; NaN and infinity are told of where a value is used."""
+    """Which of the finite values are; NaN and infinity are named where a value is used."""
     return np.asarray(np.isfinite(values) & (np.abs(values) > LARGEST_MEANT))

@@ -67,7 +67,7 @@ WEAKEST, STRONGEST = 1e3, 1e13  # bounds of E* [Pa]: softer than any gel, stiffe
 STARTS = 8
 REPLICATES = 1000
 REFITS = 200  # replicates at most where more than E* is free and each is a search
-FLAT = 1e-9  # of the force; a parameter that changes less within its bounds is not told
+FLAT = 1e-9  # of the force; a parameter that changes less within its bounds is not identified
 SMALL = 1e-6  # of a threshold, a lag or an offset, for differences [m, s, rad, 1/rad]
 NEAR = 1e-6  # of the range between bounds, or of the lower one: a value so near lies on it
 PART = 1e-5  # of E*, E, R or a work of adhesion, for differences
@@ -184,7 +184,7 @@ def identify(
         Of the search, besides the parameters' own.
 
     The force must be above 0 N somewhere. ValueError where a free parameter changes nothing at the best fit: neither
-    it nor an interval of it is told then.
+    it nor an interval of it is identified then.
     """
     parameters = (modulus_parameter(), *others)
     fit = fitted(model, measured, parameters, starts)

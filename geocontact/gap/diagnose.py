@@ -215,7 +215,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
 
 
 def is_named(said: Answer) -> bool:
-    """Whether errors are told of a model with effects: what is named, or the most probable where too many remain."""
+    """Whether errors are those of a model with effects: what is named, or the most probable where too many remain."""
     return bool(said.effects) or said.verdict == "unresolved"
 
 
@@ -339,7 +339,7 @@ def objection(found: Attribution) -> tuple[str, ...]:
 def on_bounds(chosen: Contender, base: Contender, values: dict[str, float], alone: dict[str, float]) -> tuple[str, ...]:
     """In words which shapes of named effects, and which base parameters only beside them, end on a bound.
 
-    `values` are the parameters that are told of what is named, `alone` those of the base model.
+    `values` are the parameters of what is named, `alone` those of the base model.
     """
     system, bare = chosen.judged.model.system, base.judged.model.system
     ended, stays = prior_spread(system, values) == 0.0, prior_spread(bare, alone) == 0.0

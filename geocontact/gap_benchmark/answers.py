@@ -1,5 +1,5 @@
-"""What the truth looks like as an answer, the two answerers that bound a score, and how near the truth can be told at
-all.
+"""What the truth looks like as an answer, the two answerers that bound a score, and how near the truth can be
+identified at all.
 
 Every candidate is refitted together with the base to the calibration trials as they would be without noise and without
 trial-to-trial variation, residuals weighed by the true covariance of both (that of the label's nats). The effect is
@@ -176,6 +176,6 @@ def clearly_ahead(label: Plain) -> bool:
 
 
 def one_law(label: Plain) -> set[str]:
-    """Effects that cannot be told from the planted one on these trials, or are nearer; itself among them."""
+    """Effects that are not separable from the planted one on these trials, or are nearer; itself among them."""
     planted = label["effects"][0]
     return {name for name, cost in label["left"].items() if cost <= label["left"][planted] + CLEAR}

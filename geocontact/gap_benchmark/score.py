@@ -10,7 +10,7 @@ anew in every trial as is usual (`nats_anew`).
 *Confidently wrong*: a named effect that is not there, `probabilities` of the named sum to one half
 or more, and the hedge is missing: `ambiguity` (three at most) does not hold the whole truth. One of two true effects
 named alone is incomplete, not wrong; a phantom beside a true one is wrong unless `ambiguity` hedges. An effect outside
-the table that a candidate reproduces (`imitated`) cannot be told from it, and naming one is not counted. Over all
+the table that a candidate reproduces (`imitated`) is not separable from it, and naming one is not counted. Over all
 cases. *Unknown called*: outside the table, visible, not reproduced, verdict "unknown". *Absorbed recognised*: verdict
 "no_gap" and the effect listed in `absorbed`. *Error of reduction*: |stated - true| per channel over all cases that have
 a true one (0 where nothing is missing or base parameters reproduce it); `coverage` of `ci95`: over channels of cases

@@ -6,7 +6,7 @@ Goldfeather and Interrante 2004, ACM TOG 23(1), 45, without its normals),
 
     h = f + d u + e v + (a u² + 2 b u v + c v²)/2
 
-and the curvature of that graph at its middle is what is told. The neighbours are all vertices within a radius whose
+and the curvature of that graph at its middle is the result. The neighbours are all vertices within a radius whose
 normals are within 60° of the vertex's own: thin parts and sharp edges do not count across. On a sphere of radius R the
 fit over a radius r is too large by r²/4R² of itself (h = ρ²/2R + ρ⁴/8R³, and over a disc ρ⁴ is fitted by r²ρ² - r⁴/6);
 noise of the vertices enters with 1/r².

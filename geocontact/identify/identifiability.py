@@ -14,7 +14,7 @@ POOR = 100.0  # condition from which on estimates lean on each other
 
 @dataclass(frozen=True, eq=False)
 class Identifiability:
-    """How well a set of numbers is told apart.
+    """How separable a set of numbers is.
 
     Parameters
     ----------

@@ -267,7 +267,7 @@ def settle_along(
     springs
         Stiffness of each coordinate [N/m, N m/rad].
     each
-        Is told of every frame as soon as it is found; what it raises ends the work.
+        Called with every frame as soon as it is found; what it raises ends the work.
     """
     frames: list[Frame] = []
     off = np.zeros(6)

@@ -55,7 +55,7 @@ OUTPUTS: dict[str, int] = {
     "power_lost": 1,
     "joints": 12,
 }
-"""What is told of a state besides coordinates: see `outputs`."""
+"""What is known of a state besides coordinates: see `outputs`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -152,7 +152,7 @@ def _components(vector: SX) -> tuple[SX, SX, SX]:
 
 
 BEYOND = 0.5
-"""Share of the cuff's radius: a sphere farther than that beyond an end is lost. One that is less far out is told, but
+"""Share of the cuff's radius: a sphere farther than that beyond an end is lost. One that is less far out is a warning,
 not refused: without support the device hangs on the arm and slides to 20 mm beyond its end on the shipped trial."""
 MOST_LOST = 0.25
 """Share of the time for which the sphere may be lost; beyond, nothing that is found is a result. Our choice: a cuff set

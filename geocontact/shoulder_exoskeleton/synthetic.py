@@ -382,6 +382,6 @@ def arms_of(trial: OverheadTrial, dominant_share: float = 1.0, cutoff: float = C
 def all_arms(
     conditions: Sequence[Condition] = CONDITIONS[:1], dominant_share: float = 1.0, cutoff: float = CUTOFF
 ) -> list[ArmTrial]:
-    """Both arms of every participant and task; without the device unless told otherwise."""
+    """Both arms of every participant and task; without the device by default."""
     trials = [synthetic_trial(person, task, each) for person in PARTICIPANTS for task in TASKS for each in conditions]
     return [arm for trial in trials for arm in arms_of(trial, dominant_share, cutoff)]

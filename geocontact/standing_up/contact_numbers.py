@@ -114,7 +114,7 @@ class ContactNumber:
     Parameters
     ----------
     value, lower, upper
-        In `unit`; of the interval, not a number where none is told.
+        In `unit`; of the interval, not a number where there is none.
     before, after
         Standard deviation of what is searched, as believed and with the trials; `after` is infinite on a bound.
     verdict
@@ -268,7 +268,7 @@ def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) 
 
 
 def unsettled_numbers(phase: PhaseProblem, found: CollocationResult) -> ContactNumbers:
-    """Values of a search that was ended before its time: nothing is told of their intervals."""
+    """Values of a search that was ended before its time: their intervals are not known."""
     low, high = phase.control.p
     none, numbers = float("nan"), []
     for k, each in enumerate(phase.parameters):

@@ -4,7 +4,7 @@ The exoskeleton moves by itself with its foot plate on the ground. What its moto
 parameters: of each body mass m, first moments m c_x and m c_y, inertia about its joint, and of each hinge viscous and
 Coulomb friction (Khalil & Dombre (2002), Modeling, identification and control of robots, ch. 12). Not all of them act
 on the motors, and no motion tells the ones that do not; least squares with the shortest answer gives the right torques
-all the same. Friction is told by itself, for no mass does what it does.
+all the same. Friction is identified by itself, for no mass does what it does.
 
 In a trial the torque at a hinge is that of its motor less friction. That of the person is what inverse dynamics of
 both, rigidly coupled, asks for less that of the exoskeleton.
@@ -99,7 +99,7 @@ class ExoskeletonDynamics:
     alone
         Of each parameter, whether the motion identifies it by itself and not only in combinations.
     rank
-        Combinations that are told.
+        Combinations that are identified.
     residual
         Root mean square of what the fit leaves of the motors' torques [N m].
     """

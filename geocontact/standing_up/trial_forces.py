@@ -20,7 +20,7 @@ BRIEF = 0.1
 CHAIR_CUTOFF = 10.0
 """Cut-off of the chair's force [Hz], ours: the load is given, so that a motion would have to follow its noise."""
 STANDING = 20.0
-"""Least force up on both feet [N] at which their centre of pressure can be told."""
+"""Least force up on both feet [N] at which their centre of pressure can be found."""
 BESIDE = 0.5
 """Farther from the ankle than that [m] a centre of pressure is not under the foot."""
 

@@ -34,7 +34,7 @@ from scipy.stats import f as fisher
 LIMIT = 3.5
 """Score from which on a curve lies apart."""
 LEAST = 5
-"""Trials of a condition: of fewer none can be told to lie apart."""
+"""Trials of a condition: of fewer none can be said to lie apart."""
 Interval = tuple[float, float]
 MOST_FLIPS = 10_000
 AT_ONCE = 512

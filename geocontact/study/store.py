@@ -24,7 +24,7 @@ TAKEN = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
 LARGEST_TOLD = 200
 ADDRESS = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
 BEHIND = 1 << 20
-"""Byte that is locked on Windows, where others cannot read what is locked: behind what is told."""
+"""Byte that is locked on Windows, where others cannot read what is locked: behind what is written."""
 RESULTS = "results"
 TOLD = "trial.json"
 """File in the folder of a trial that says what is in it."""
@@ -169,7 +169,7 @@ class Store:
                 for each in run["inputs"]
                 if "sha256" in each and "file" in each
             }
-            # a pipe or a device, of which a stranger's results may say that they were made, would be waited for
+            # a pipe or a device, of which results of others may say that they were made, would be waited for
             same = all(file.is_file() and digests.of(file) == known for file, known in named.items())
             return same and _as_written(place, run, digests)
         except UNREADABLE:

@@ -30,7 +30,7 @@ _SIGNS = {
 }
 DIGITS = 4
 LEAST = 3
-"""Subjects that agreement is told of."""
+"""Subjects that agreement is given for."""
 
 
 def latex(table: pd.DataFrame) -> str:

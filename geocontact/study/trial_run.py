@@ -1,4 +1,4 @@
-"""One trial on a worker: its results go to their place, what goes wrong is told in one line."""
+"""One trial on a worker: its results go to their place, what goes wrong is written in one line."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _sources = cache(source_digest.digest)
 
 @dataclass(frozen=True)
 class TrialTask:
-    """What a worker is told.
+    """What a worker is given.
 
     Parameters
     ----------

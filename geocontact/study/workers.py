@@ -144,7 +144,7 @@ def workers_of(o: CohortOptions, limits: TrialLimits = NO_LIMITS, jobs: Jobs | N
     except ModuleNotFoundError as error:  # another ImportError is of the machine: no memory to load a library into
         raise InputError("", "cohort", f"needs {error.name}, which is not installed", INSTALL) from error
     distributed: Any = library  # its annotations do not say how it is called
-    for name in LOGGERS:  # what matters of it is told in one line
+    for name in LOGGERS:  # what matters of it is said in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     found = Workers(o, distributed, limits, jobs)
     # a process that is a daemon can start none, which analyses on several cores do

@@ -1,6 +1,6 @@
 """A force law that a simulator calls: effects on the law act inside of a simulator that is not ours.
 
-The simulator is told a law beside its inputs and numbers, and adds what it gives where it belongs in its own equations.
+The simulator gets a law beside its inputs and numbers, and adds what it gives where it belongs in its own equations.
 Without effects the law is the springs and dampers that the base names, or nothing at all; with them it has friction,
 play, stops, further damping, stiffening and whatever else `chain.interface_law` knows.
 """

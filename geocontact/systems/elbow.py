@@ -1,7 +1,7 @@
 """Elbow exoskeleton: force at the attachment from a misaligned axis, F = k d_tot (explicit model), and its geometry.
 
 Input `beta [rad]`, output `force [N]`; parameters k, x, y; l and z are constants or fixed parameters.
-(k, x, y, l, z) together cannot be told from any data: F(k/s, s × lengths) = F.
+(k, x, y, l, z) together are not identifiable from any data: F(k/s, s × lengths) = F.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Knee implant: medial and lateral force from the sides' contact areas, F = (4/3) E* a³/R, a = sqrt(area/π).
 
 Inputs `flexion [rad]`, `adduction [rad]`, `area_medial [m^2]`, `area_lateral [m^2]`; the base uses the areas only.
-Outputs `force_medial [N]`, `force_lateral [N]`. Parameter E_star [Pa], constant or fixed parameter R [m]. Only E*/R can
-be told from areas and forces.
+Outputs `force_medial [N]`, `force_lateral [N]`. Parameter E_star [Pa], constant or fixed parameter R [m]. Only E*/R is
+identifiable from areas and forces.
 
 A side's area is taken for one circle, a = sqrt(area/π), so F = (4/3) E* a³/R (`contact.area_hertz.disc_force`). Here
 a³/R [m²] is the deflection u and (4/3) E* [Pa] the stiffness, so that whatever acts on a deflection has its place.

@@ -51,7 +51,7 @@ class Simulated:
     Parameters
     ----------
     names
-        Of the numbers that it is told; all there are where None.
+        Names of the numbers that it is given; all there are where None.
     """
 
     simulator: Simulator
@@ -95,7 +95,7 @@ def simulated_system(
     constants: Mapping[str, float],
     dynamic: bool = False,
 ) -> System:
-    """The base model that a simulator is; `names` of the numbers that it is told, all where None.
+    """The base model that a simulator is; `names` of the numbers that it is given, all where None.
 
     `dynamic`: whether its outputs feel what inputs did before, or differentiate them (`chain.system.System`).
     """

@@ -8,7 +8,7 @@ from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 
 LONGEST = 300
-"""Characters that are told of an error in somebody's code."""
+"""Characters that are shown of an error in somebody's code."""
 
 
 def validated(system: System, case: GapCase) -> System:

@@ -267,6 +267,14 @@ def test_what_cannot_be_used_is_refused_in_one_line(poses: tuple[Path, Path], tm
     plain = write_sensors(tmp_path / "plain.sto", time, sensors(STANDING), "double")
     long = write_sensors(tmp_path / "long.sto", time, {"pelvis_imu": np.full((2, 4), 0.7)})
     other = write_sensors(tmp_path / "other.sto", time, {"arm_imu": sensors(STANDING)["pelvis_imu"]})
+    named = write_sensors(
+        tmp_path / "named.sto",
+        time,
+        {THEIA[b]: each for b, each in zip(BODIES, sensors(STANDING).values(), strict=True)},
+    )
+    unseen = write_sensors(tmp_path / "unseen.sto", time, {f"{b}_imu": np.full((2, 4), np.nan) for b in BODIES})
+    nothing = tuple(f"{b}_imu=0" for b in BODIES)
+    two_origins = (*(f"{name}=0" for name in THEIA.values()), "r_shank_origin=0", "r_foot_origin=0")
     trc = gc.virtual_markers(MESHES / "leg_swing.mot", model=LEG).write(tmp_path / "v") / "markers.trc"
     upright = ("heading", "pelvis=y")
     for file, options, line in (
@@ -275,12 +283,22 @@ def test_what_cannot_be_used_is_refused_in_one_line(poses: tuple[Path, Path], tm
         (walk, {upright[0]: upright[1]}, "axis y of pelvis is upright in the calibration; name another axis"),
         (walk, {"markers_map": "r_thigh=femur"}, "femur is no body of the model; there are pelvis, femur_r"),
         (walk, {"time": (9.0, 10.0)}, "no frame between 9 and 10 s"),
-        (walk, {"calibration": sto}, "pelvis was not recorded|r_thigh was not recorded"),
+        (walk, {"calibration": sto}, "a.sto `calibration`: is no .c3d file, which walk.c3d is"),
+        (walk, {"calibration": named}, "named.sto `calibration`: is no .c3d file, which walk.c3d is"),
+        (sto, {"calibration": MESHES / "gait.csv"}, "gait.csv `calibration`: is no .sto file, which a.sto is"),
+        (sto, {"calibration": other}, "was not recorded; there are arm_imu"),
         (trc, {"calibration": standing}, "`calibration`: has no effect: markers.trc holds markers, not segments"),
         (plain, {}, "DataType=double cannot be used; DataType=Quaternion is expected"),
         (long, {}, "line 7: the quaternion of pelvis_imu has the length 1.4"),
         (other, {}, "no segment has the name of a body: arm_imu; name them with `markers_map` l_thigh=femur_l"),
         (sto, {"weight": ("pelvis_imu=-1",)}, "a weight is negative"),
+        (
+            sto,
+            {"weight": nothing},
+            "a.sto `weight`: no orientation of a segment has a weight, and no origins; leave one",
+        ),
+        (walk, {"weight": two_origins}, "no orientation of a segment has a weight, and 2 origins; leave one"),
+        (unseen, {"calibration": sto}, "unseen.sto: no frame shows any of these segments; is it the right file?"),
     ):
         with pytest.raises(InputError, match=line.replace("(", r"\(")):
             gc.inverse_kinematics(file, model=LEG, axes=LABORATORY, **options)

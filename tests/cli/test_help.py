@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -81,6 +82,15 @@ def test_options_stand_under_headings() -> None:
 def test_many_options_are_never_one_heap(job: Job) -> None:
     sections = Counter(one.section for one in declared(job.options))
     assert max(sections.values()) <= MOST_TOGETHER
+
+
+@pytest.mark.parametrize("job", JOBS, ids=lambda job: job.command)
+def test_help_names_no_other_unit_than_the_one_that_is_typed(job: Job) -> None:
+    """A foot's length had [m] and, behind it, "mm unless a unit is written"."""
+    for one in declared(job.options):
+        typed = None if one.typed is None else re.match(r"(\w+) unless a unit is written", one.typed.hint)
+        if typed is not None:
+            assert set(re.findall(r"\[(\w+)\]", one.words)) <= {typed[1]}, f"{one.name}: {one.words}"
 
 
 @pytest.mark.parametrize(

@@ -310,7 +310,7 @@ NEAR = 20e-3  # m; bodies that never come this close are a mistake in the input
 PLACES = "where each mesh sits in its body (`place_moving`, `place_fixed`)"
 
 
-def refuse_strangers(e: AreaEvolution, motion: Motion, o: AreaOptions) -> None:
+def refuse_far_apart(e: AreaEvolution, motion: Motion, o: AreaOptions) -> None:
     """InputError for bodies that are far apart in every frame."""
     closest = float(e.min_distance.min())
     if closest <= NEAR:

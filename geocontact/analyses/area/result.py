@@ -37,7 +37,7 @@ from geocontact.analyses.area.contact import (
     least_distance,
     pressure_error_of,
     pressures_of,
-    refuse_strangers,
+    refuse_far_apart,
     say_inner_area,
     tables_of,
     warn_of_lift_off,
@@ -254,7 +254,7 @@ def _evaluated(bodies: Bodies, o: AreaOptions, name: str, motion: Motion) -> tup
             step()
 
         evolution = area_evolution(bodies.moving, bodies.fixed, motion, bodies.settings, o.workers, each)
-    refuse_strangers(evolution, motion, o)
+    refuse_far_apart(evolution, motion, o)
     warn_of_no_contact(evolution, motion, name)
     warn_of_lift_off(evolution, motion, name)
     warn_of_overlap(evolution, motion, name)

@@ -75,7 +75,7 @@ class CopOptions(Options):
     toe
         Axis of the foot's frame that points from heel to toe: adds the centre in the foot, from the heel.
     foot_length
-        From heel to toe [m]; from the rearmost to the foremost point of the spheres by default.
+        From heel to toe; from the rearmost to the foremost point of the spheres by default.
     stances
         Add every complete stance, from where the normal force reaches the gate until it falls below, at 0, 1, … 100 %.
 
@@ -97,7 +97,7 @@ class CopOptions(Options):
     exponent
         n of F = k depth^n; 1.2 by default.
     full_depth
-        Depth [m] from which damping acts fully: 2 mm by default.
+        Depth from which damping acts fully: 2 mm by default.
     friction
         Static and kinetic coefficient: 0.9,0.7 by default.
     threshold_speed

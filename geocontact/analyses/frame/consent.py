@@ -1,4 +1,4 @@
-"""Consent to start what a file names: a case, a study or a run.json may come from a stranger.
+"""Consent to start what a file names: a case, a study or a run.json may come from somebody else.
 
 `geocontact rerun` and `geocontact cohort` take options from a file. A program or a module of Python that a file names
 is started only where the call itself says so, and is named before.

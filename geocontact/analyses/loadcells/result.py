@@ -23,22 +23,18 @@ from jaxtyping import Float
 
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import Result
-from geocontact.analyses.loadcells.forces import (
+from geocontact.analyses.loadcells.cycles import (
     SIDES,
     Cut,
-    LoadCellInputs,
-    RecordedCells,
     cuts_asked_for,
     cycle_table,
-    doubt_drift,
     ensemble_table,
-    read,
-    recorded_forces,
     say_cycles,
     shift_table,
     stacked,
     style_table,
 )
+from geocontact.analyses.loadcells.forces import LoadCellInputs, RecordedCells, doubt_drift, read, recorded_forces
 from geocontact.analyses.loadcells.options import STANCE, LoadcellOptions
 from geocontact.analyses.loadcells.show import (
     CYCLES,

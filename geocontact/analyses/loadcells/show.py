@@ -10,7 +10,8 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame.pages import thinned
 from geocontact.analyses.frame.words import NOT_A_DEVICE, counted
-from geocontact.analyses.loadcells.forces import SIDES, Cut, RecordedCells, stacked
+from geocontact.analyses.loadcells.cycles import SIDES, Cut, stacked
+from geocontact.analyses.loadcells.forces import RecordedCells
 from geocontact.data.cell_regression import CellRegression
 from geocontact.data.motion import Course
 from geocontact.data.text import seconds

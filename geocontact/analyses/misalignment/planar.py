@@ -46,7 +46,7 @@ def drift(text: str, option: str) -> Path | dict[str, tuple[float, ...]]:
 
 
 def axis_drift(told: Path | Mapping[str, tuple[float, ...]] | None, span: tuple[float, float]) -> AxisDrift:
-    """Drift of coefficients [m, m/rad, m/rad², …] or of a table; none where nothing is told.
+    """Drift of coefficients [m, m/rad, m/rad², …] or of a table; none where nothing is given.
 
     A table that does not hold all angles of `span` [rad] is used with a warning: it is held at its ends.
     """

@@ -141,7 +141,7 @@ class Identified:
     predictions
         Of a trial that was not used.
     poisson
-        Ratios that E is told for.
+        Ratios that E is given for.
     poses
         E* of the total with drawn poses; None without draws.
     """

@@ -213,8 +213,8 @@ def _followed(
 
 Bounds = tuple[float, float] | None
 
-LAGS = 0.1  # s, how far a lag is searched unless told
-BENDS = 0.5  # share by which R may change at the largest flexion, unless told
+LAGS = 0.1  # s, how far a lag is searched by default
+BENDS = 0.5  # share by which R may change at the largest flexion, by default
 STRAIGHT = np.radians(1.0)  # a motion that flexes by less tells nothing of a radius that follows flexion
 
 

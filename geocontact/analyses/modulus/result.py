@@ -158,7 +158,7 @@ def _identified(
 def _sides(
     inputs: ModulusInputs, threshold: float, others: tuple[Parameter, ...], o: ModulusOptions
 ) -> dict[str, Identification]:
-    """Every side that tells something; the others are told. InputError where none does."""
+    """Every side that identifies something; the others are named. InputError where none does."""
     found, untold = {}, []
     for side in inputs.sides:
         try:

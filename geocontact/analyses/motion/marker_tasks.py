@@ -159,7 +159,7 @@ def marker_tasks(
     coordinates = {c.name for c in model.coordinates}
     markers = {**tasks.markers, **weights_typed(weight, {m.name for m in model.markers}, "R.Heel=10")}
     wanted = held_near(model, hold)
-    _refuse_strangers(model, seen, markers)
+    _refuse_few_in_common(model, seen, markers)
     weighed = [name for name, (weight, _) in tasks.coordinates.items() if weight > 0.0]
     _warn(model, seen, markers, [*weighed, *tasks.from_file])
     near = {name: by for name, by in tasks.from_file.items() if name in coordinates and name not in wanted}
@@ -215,7 +215,7 @@ def _followed(
     return found
 
 
-def _refuse_strangers(model: Multibody, seen: MarkerTrajectories, markers: dict[str, float]) -> None:
+def _refuse_few_in_common(model: Multibody, seen: MarkerTrajectories, markers: dict[str, float]) -> None:
     """InputError with the names of both sides where hardly a marker is common to them."""
     common = sum(markers.get(m.name, 0.0) > 0.0 for m in model.markers if m.name in seen.names)
     if common < FEWEST:

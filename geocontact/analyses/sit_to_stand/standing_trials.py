@@ -154,7 +154,7 @@ def _at_one_time(one: StandingTrialFiles, other: StandingTrialFiles, file: Path)
 def _known(
     study: Path, key: str, told: tuple[str, ...] | None, usual: tuple[str, ...], names: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """In the order of all names; the usual ones where nothing is told."""
+    """In the order of all names; the usual ones by default."""
     if told is None:
         return usual
     odd = [name for name in told if name not in names]

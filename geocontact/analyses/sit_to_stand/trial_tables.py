@@ -48,7 +48,7 @@ class StandingChannel:
     name, unit, factor
         As tables call it; the factor turns SI into the unit.
     noise
-        Standard deviation that was told, in SI.
+        Standard deviation that was stated, in SI.
     """
 
     channel: str

@@ -3,7 +3,7 @@
 Below its threshold speed, some millimetres a second, friction is proportional to the speed of slipping: far less than
 markers tell. So the recorded speed is taken as known up to its error, and in every frame the correction is sought with
 which the model's force along the floor is the plate's. It counts as a residual, in units of that error. Friction is
-told by it only where a foot slips in earnest.
+identified by it only where a foot slips in earnest.
 """
 
 from __future__ import annotations

@@ -183,7 +183,7 @@ class PairChoice:
     gain
         By response: how much nearer to the aim the pair is than `alone`, median and interval, in the outcome's unit.
     as_good, alignments
-        Least and largest values and alignments whose pairs cannot be told from the best, with whatever the other is.
+        Least and largest values and alignments whose pairs are not separable from the best, with whatever the other is.
     better
         Whether it gains more than a hundredth of the outcome, surely, in every response that is judged.
     """

@@ -34,7 +34,7 @@ RESPONSES: tuple[Response, ...] = ("angles kept", "torque kept", "joint torques 
 """Responses of the person: angles of all joints, the ankle's torque without inertia, torques of hip and knee with
 it."""
 JUDGED = RESPONSES[:2]
-"""Those that a best value has to hold for; the third is told beside it."""
+"""Those that a best value has to hold for; the third is reported beside it."""
 AIMS: tuple[Aim, ...] = tuple(MEASURES)
 
 

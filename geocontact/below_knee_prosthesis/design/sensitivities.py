@@ -87,7 +87,7 @@ def sensitivities(
 def _of_choice(
     vary: Vary, foot: VariableStiffnessFoot, task: FootTask, fulcrum: float, terrain: Terrain
 ) -> FootSensitivity:
-    """A step up and down as far as the range lets it, told for the whole step."""
+    """A step up and down as far as the range lets it, scaled to the whole step."""
     step, present = STEPS[vary], Knob(vary, np.zeros(1), fulcrum).present
     ends = np.array([present - step, present + step])
     if vary == "fulcrum":

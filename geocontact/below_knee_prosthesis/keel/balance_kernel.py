@@ -58,7 +58,7 @@ def sphere_force(
 ) -> tuple[Vector, Vector, Vector, Vector, float, float]:
     """Force of a sphere that touches, and what its change is made of.
 
-    Pressing and force are told. Given are the force, the same per pressing, the direction of sliding, the slopes of
+    Pressing and force are results. Given are the force, the same per pressing, the direction of sliding, the slopes of
     the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is never 0.
     """
     rate = -dot(n, v)
@@ -94,7 +94,7 @@ def add_sphere(
     turned: Float[np.ndarray, "m 3 3"],
     goes: Float[np.ndarray, "m 3"],
 ) -> None:
-    """A sphere's part in torques and derivatives; told: depth, its rate, pressing, force, centre, sliding."""
+    """A sphere's part in torques and derivatives; `told`: depth, its rate, pressing, force, centre, sliding."""
     n, spin, flow = (plane[0], plane[1], plane[2]), (twist[0], twist[1], twist[2]), (twist[3], twist[4], twist[5])
     radius = numbers[RADIUS]
     c = carried(point, last, rest, place, turned)

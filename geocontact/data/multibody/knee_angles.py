@@ -43,7 +43,7 @@ def angles_of_tibia(
     """Flexion, adduction and rotation [rad] of `R_FT`, the inverse of `tibia_in_femur`.
 
     Flexion and rotation within half a turn to either side, adduction within a quarter. At an adduction of a quarter
-    turn the other two are not told apart; only their sum or difference means anything there.
+    turn the other two are not separable; only their sum or difference means anything there.
     """
     s = SIGN[side]
     m = turned.as_matrix()

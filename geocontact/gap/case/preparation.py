@@ -175,7 +175,7 @@ class InputBeliefs:
     def tolerated(
         self, system: System, measured: Measured, held_out: Measured, plain: Refit, stated: Mapping[str, float]
     ) -> InputBeliefs:
-        """The same without noise that could not be taken off without harm to the base model; what is told stays."""
+        """The same without noise that could not be taken off without harm to the base model; what is stated stays."""
         guessed = {name: level for name, level in self.seen.items() if name not in stated}
         borne = tolerated(system, measured, held_out, plain.values, guessed, self.passed)
         less = {name: level for name, level in borne.items() if level < guessed[name]}

@@ -132,7 +132,7 @@ class Problem:
         """The same noise as far as it is not higher than could be expected.
 
         Levels that were fitted to a model's residuals grow with what the model misses. Here outputs are no noisier than
-        was told, and inputs of one unit no noisier than the best of them.
+        was stated, and inputs of one unit no noisier than the best of them.
         """
         units = [self.system.units.get(name, name) for name in self.system.inputs]
         best = [min(v for v, u in zip(noise.levels.inputs, units, strict=True) if u == own) for own in units]

@@ -37,7 +37,7 @@ class Discriminability:
     effects
         Every candidate asked about, as visible as asked for, or as its bounds let it be.
     separations, classes
-        Every one against every other, and those that cannot be told apart.
+        Every one against every other, and those that are not separable.
     detectabilities
         From which amplitude on each is seen.
     absorbed

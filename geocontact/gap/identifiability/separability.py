@@ -10,9 +10,9 @@ roughly how much.
 Two models with effects, both fitted to the trials, are held against each other: what one leaves of the other's
 prediction (`gap.experiment.proposal`), either way round, are the nats by which trials of this kind tell them
 apart. Effects that all leave less than `APART` of each other are an equivalence class: the trials answer with the
-class, and which of its members is there is not for them to say. Others that are still in question can mostly be told
-apart by these trials, yet the evidence does not: the form of no candidate is exact, so that a lead counts for less than
-it is. A model with fewer effects than what is named is in no class.
+class, and which of its members is there is not for them to say. Others that are still in question are mostly
+separable by these trials, yet the evidence does not separate them: the form of no candidate is exact, so that a lead
+counts for less than it is. A model with fewer effects than what is named is in no class.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ from geocontact.identify.optimise.fisher_scoring import Batch, Scored, least
 from geocontact.identify.signals.low_pass import BELOW_NYQUIST, LowPass
 
 USUAL, USUALLY = 0.08, 0.9  # per sample, and the standard deviation of its logarithm: 6 Hz at 75 (Winter 2009)
-CORNERS = 21  # that are compared, from one as far below the usual one as the highest that can be told is above it
+CORNERS = 21  # that are compared, from one as far below the usual one as the highest that can be identified is above it
 UNFILTERED = 4.0  # nats that must speak for no filter of any input
 
 

@@ -164,7 +164,7 @@ class HeldOutRules:
         """Objections to models that another with as many effects outdoes, by label.
 
         It surely leaves less of the squared error on held-out trials, by `LEFT_OVER`: models that predict about the
-        same are not told apart by it.
+        same are not separable by it.
         """
         found = {}
         for many in (1, 2):

@@ -21,7 +21,7 @@ from geocontact.gap_benchmark.synthetic.visibility import WhitenedTrial, jacobia
 
 @dataclass(frozen=True)
 class IdealTrial:
-    """One trial, and how residuals in it weigh: by the true covariance that visibility is told in.
+    """One trial, and how residuals in it weigh: by the true covariance that visibility is measured in.
 
     Parameters
     ----------

@@ -129,7 +129,7 @@ class Laboratory:
     placement
         How far things are off in each trial, drawn anew in every one (standard deviations).
     standing
-        How far constants are off from what is told, the same in all trials.
+        How far constants are off from what is stated, the same in all trials.
     warm_up
         What channels are off by until the sensors are warm.
     trials

@@ -18,7 +18,7 @@ Rng = np.random.Generator
 
 @dataclass(frozen=True)
 class Clock:
-    """An even clock that now and then loses rows, unless told otherwise.
+    """An even clock that now and then loses rows by default.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ from geocontact.geometry.plane import Plane
 from geocontact.geometry.surface import Surface
 from geocontact.geometry.union import UnitedSurface
 
-TOLERANCE = 1e-9  # m; depths closer together than this are not told apart
+TOLERANCE = 1e-9  # m; depths closer together than this count as equal
 DIVISIONS = 30  # a guard; edges halve each time
 CANDIDATES = 20_000  # at most this many triangles are divided at a time, the most promising first
 

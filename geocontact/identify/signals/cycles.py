@@ -16,7 +16,7 @@ RELEASE = 0.8
 """A load is gone below this share of the level at which it sets in, so that noise at the level is one crossing."""
 
 SHORTEST = 0.15
-"""s; shorter loads, and shorter pauses of a load, are not told apart from what is around them."""
+"""s; shorter loads, and shorter pauses of a load, are not separated from what is around them."""
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ FARTHEST = 25
 """Steps of a curve that it may be later or earlier."""
 REPLICATES = 2000
 FEWEST = 3
-"""Cycles of a style from which an interval is told."""
+"""Cycles of a style from which an interval is given."""
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from geocontact.io.text.tables import TextTable
 
 
 def read_c3d_analogs(path: str | PathLike[str], plates: bool = True) -> TextTable:
-    """Table of the analog channels, each with the unit that the file says; those of force plates too unless told."""
+    """Table of the analog channels, each with the unit that the file says; those of force plates too by default."""
     arrays = read_apart(path, __name__)
     kept = np.arange(arrays["values"].shape[1]) if plates else np.flatnonzero(~np.asarray(arrays["of_plates"], bool))
     values = np.asarray(arrays["values"], float)[:, kept]

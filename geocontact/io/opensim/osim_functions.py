@@ -77,7 +77,7 @@ def _curvature(
 
 
 def function_of(owner: str, file: str, element: Element, arguments: int) -> JointFunction:
-    """Function in an XML element of `arguments` coordinates; what is wrong with it is told with its owner's name."""
+    """Function in an XML element of `arguments` coordinates; what is wrong with it is refused with its owner's name."""
     try:
         return read_function(file, element, arguments)
     except InputError as error:

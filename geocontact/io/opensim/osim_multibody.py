@@ -30,7 +30,7 @@ _MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 def read_multibody(path: str | PathLike[str]) -> Multibody:
     """Bodies, joints and markers of an .osim file.
 
-    Coordinates that a coupler makes functions of others follow them; points that a constraint keeps together are told.
+    Coordinates that a coupler makes functions of others follow them; points that a constraint keeps together too.
     Other constraints are no part of a tree: a model with some that are not switched off is read with a warning that
     names them. Muscles and other forces are left aside. InputError for loops and bodies without a joint.
     """

@@ -40,7 +40,7 @@ _KEPT: dict[str, Callable[[Element], bool]] = {
     ),
     "contact geometry": lambda e: e.tag in ("ContactSphere", "ContactMesh", "ContactEllipsoid", "ContactCylinder"),
 }
-"""What stays as it is written, and how an element of it is told."""
+"""What stays as it is written, and how an element of it is recognised."""
 
 _SAME = 1e-9
 """m that the file that was written may differ from what it was to be."""

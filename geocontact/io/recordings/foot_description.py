@@ -1,5 +1,4 @@
-"""Description of a prosthetic foot: its keel, its settings, its sole, and the compressions that its keel is identified
-from.
+"""Description of a prosthetic foot: its keel, its settings, its sole, and its compressions on a bench.
 
     name = "laboratory foot"
 
@@ -33,87 +32,41 @@ looked for beside the description.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-import numpy as np
-from jaxtyping import Float
 from pydantic import Field, model_validator
 
-from geocontact.data.errors import InputError
 from geocontact.data.parameter import SOURCES
-from geocontact.data.plausible import M_PER_S, N_PER_MM, N_S_PER_M, PLAIN, Plausible, S
-from geocontact.data.units import MPa, Unit, deg, mm
 from geocontact.io.documents import Document, File, Listed, Rows, Word, doubled, read_document, refusal
-from geocontact.io.recordings.shoulder_device import SourcedQuantity, StatedNumber
-from geocontact.io.text.side_table import read_side_table
-
-HERE = "as the foot's file states it"
-"""Note of a number that has none of its own."""
-
-
-class FootQuantity(SourcedQuantity):
-    """A number of a foot; one that does not say where it is from is the user's."""
-
-    def sourced(self, stated: Any) -> StatedNumber:
-        """The value in SI with what is said of it."""
-        if not isinstance(stated, dict):
-            return StatedNumber(self.read(stated), "option", HERE)
-        found = super().sourced(stated)
-        if "source" in stated:
-            return found
-        return StatedNumber(found.value, "option", found.note or HERE)
-
-
-def _quantity(known: str | Plausible) -> FootQuantity:
-    return FootQuantity(known, sources=SOURCES)
-
-
-MM_PER_S = Unit("mm/s", "m/s", 1e-3)
-N_M2, KG_PER_M3 = Unit("N m^2", "N m^2", 1.0), Unit("kg/m^3", "kg/m^3", 1.0)
-PLACE = Plausible("a place along a keel", mm, (0.0, 500.0))
-THICKNESS = Plausible("the thickness of a keel", mm, (0.3, 40.0), (2.0, 15.0), why="leaves of carbon and glass fibre")
-JOINTS = Plausible("the number of a keel's joints", PLAIN, (1.0, 64.0), (2.0, 64.0))
-USUAL_JOINTS = StatedNumber(8.0, "option", "joints that stand for the beam")
-STIFFNESS = Plausible("the stiffness of a foot or of a sphere under it", N_PER_MM, (0.1, 1e4), (1.0, 2000.0))
-FEET = "prosthetic feet"
-SOLE_DAMPING = Plausible(
-    "the damping of a sphere under a foot", N_S_PER_M, (0.0, 1e6), (1.0, 1e4), or_zero=True, why=FEET
+from geocontact.io.recordings.foot_bench import Bench, Compression
+from geocontact.io.recordings.foot_quantities import (
+    ABOVE_GROUND,
+    ACROSS,
+    ACTUATOR,
+    COLUMN,
+    CREEP,
+    EXPONENT,
+    FOAM,
+    FOAM_MODULUS,
+    FOAM_RETARDATION,
+    JOINTS,
+    SOLE_DAMPING,
+    USUAL_JOINTS,
+    Bending,
+    Density,
+    FootQuantity,
+    Friction,
+    Keel,
+    Length,
+    Modulus,
+    Retardation,
+    Stiffness,
+    Thickness,
+    Width,
+    quantity,
 )
-SOLE_FRICTION = Plausible("a coefficient of friction of a sole", PLAIN, (0.0, 10.0), (0.1, 2.0), why=FEET)
-EXPONENT = Plausible("the exponent of the force of a sole over its depth", PLAIN, (0.3, 5.0), (0.8, 2.5))
-ABOVE_GROUND = Plausible("a depth of a sole", mm, (1e-4, 500.0), (0.05, 20.0))
-CREEP = Plausible("the speed below which a sole sticks", M_PER_S, (1e-6, 10.0), (1e-4, 0.2))
-FOAM = Plausible("the thickness of foam under a keel", mm, (0.5, 200.0), (3.0, 60.0))
-FOAM_MODULUS = Plausible("the modulus of foam", MPa, (1e-3, 1e3), (0.02, 20.0), why="soft open cells to dense EVA")
-FOAM_RETARDATION = Plausible(
-    "the retardation of foam", S, (0.0, 10.0), (1e-4, 0.2), or_zero=True, why="a loss factor of 0.001 to 1 at 1 Hz"
-)
-COLUMN = Plausible("the breadth of a column of foam", mm, (0.2, 50.0), (0.5, 10.0))
-ACROSS = Plausible("columns of foam side by side", PLAIN, (1.0, 40.0))
-GAUGE = Plausible("the standard deviation of a measured deflection", mm, (0.0, 500.0), (1e-3, 1.0), or_zero=True)
-PRESSED = Plausible("how far a sole is compressed", mm, (0.0, 500.0), (0.5, 30.0))
-ACTUATOR = Plausible("the speed of a fulcrum's actuator", MM_PER_S, (0.1, 5000.0), (5.0, 1000.0))
-TILTED = Plausible("the tilt of a plate against a sole", deg, (-90.0, 90.0), (0.0, 45.0))
-SPREAD = Plausible("the standard deviation of a foot's stiffness", N_PER_MM, (0.0, 1e4), (0.001, 50.0))
-
-Length = Annotated[StatedNumber, _quantity(PLACE)]
-Keel = Annotated[StatedNumber, _quantity(Plausible("the length of a keel", mm, (50.0, 500.0)))]
-Width = Annotated[StatedNumber, _quantity(Plausible("the width of a keel", mm, (5.0, 200.0), (20.0, 120.0)))]
-Thickness = Annotated[StatedNumber, _quantity(THICKNESS)]
-Density = Annotated[
-    StatedNumber, _quantity(Plausible("the density of a keel", KG_PER_M3, (100.0, 2e4), (500.0, 9000.0)))
-]
-Bending = Annotated[StatedNumber, _quantity(Plausible("EI or GJ of a keel", N_M2, (0.1, 1e3), (1.0, 300.0)))]
-Stiffness = Annotated[StatedNumber, _quantity(STIFFNESS)]
-Modulus = Annotated[
-    StatedNumber, _quantity(Plausible("a modulus of a keel's material", MPa, (10.0, 1e6), (500.0, 3e5)))
-]
-Retardation = Annotated[
-    StatedNumber, _quantity(Plausible("the retardation of a keel's material", S, (0.0, 1.0), (1e-5, 0.1), or_zero=True))
-]
-Friction = Annotated[StatedNumber, _quantity(SOLE_FRICTION)]
+from geocontact.io.recordings.shoulder_device import StatedNumber
 
 
 class KeelSection(Document):
@@ -198,7 +151,7 @@ class SoleZone(Document):
     """
 
     stiffness: Stiffness
-    damping: Annotated[StatedNumber, _quantity(SOLE_DAMPING)]
+    damping: Annotated[StatedNumber, quantity(SOLE_DAMPING)]
     static: Friction
     kinetic: Friction
 
@@ -228,9 +181,9 @@ class SoleDescription(Document):
     spheres: File
     source: Literal["paper", "derived", "invented"] = "derived"
     below: Length
-    exponent: Annotated[StatedNumber, _quantity(EXPONENT)] | None = None
-    full_depth: Annotated[StatedNumber, _quantity(ABOVE_GROUND)] | None = None
-    threshold_speed: Annotated[StatedNumber, _quantity(CREEP)] | None = None
+    exponent: Annotated[StatedNumber, quantity(EXPONENT)] | None = None
+    full_depth: Annotated[StatedNumber, quantity(ABOVE_GROUND)] | None = None
+    threshold_speed: Annotated[StatedNumber, quantity(CREEP)] | None = None
     zones: dict[str, SoleZone]
 
 
@@ -252,9 +205,9 @@ class FoamZone(Document):
     """
 
     to: Length
-    thickness: Annotated[StatedNumber, _quantity(FOAM)]
-    modulus: Annotated[StatedNumber, _quantity(FOAM_MODULUS)]
-    retardation: Annotated[StatedNumber, _quantity(FOAM_RETARDATION)]
+    thickness: Annotated[StatedNumber, quantity(FOAM)]
+    modulus: Annotated[StatedNumber, quantity(FOAM_MODULUS)]
+    retardation: Annotated[StatedNumber, quantity(FOAM_RETARDATION)]
     static: Friction
     kinetic: Friction
 
@@ -282,48 +235,12 @@ class FoamDescription(Document):
 
     below: Length
     breadth: Width
-    column: Annotated[StatedNumber, _quantity(COLUMN)] | None = None
+    column: Annotated[StatedNumber, quantity(COLUMN)] | None = None
     across: Annotated[StatedNumber, FootQuantity(ACROSS, bare=True, sources=SOURCES)] | None = None
-    exponent: Annotated[StatedNumber, _quantity(EXPONENT)] | None = None
-    full_depth: Annotated[StatedNumber, _quantity(ABOVE_GROUND)] | None = None
-    threshold_speed: Annotated[StatedNumber, _quantity(CREEP)] | None = None
+    exponent: Annotated[StatedNumber, quantity(EXPONENT)] | None = None
+    full_depth: Annotated[StatedNumber, quantity(ABOVE_GROUND)] | None = None
+    threshold_speed: Annotated[StatedNumber, quantity(CREEP)] | None = None
     zones: dict[str, FoamZone]
-
-
-class Compression(Document):
-    """A static compression of the forefoot.
-
-    Parameters
-    ----------
-    name
-        Its own for each.
-    setting, fulcrum
-        Setting of the foot, or place of its fulcrum; one of both.
-    sought
-        Whether the fulcrum's place is identified with the keel.
-    curve
-        Table with `force [N]` and `deflection [mm]`.
-    stiffness, sd
-        In place of a curve: force over deflection, and its standard deviation.
-    """
-
-    name: Word
-    setting: Word | None = None
-    fulcrum: Length | None = None
-    sought: bool = False
-    curve: File | None = None
-    stiffness: Stiffness | None = None
-    sd: Annotated[StatedNumber, _quantity(SPREAD)] | None = None
-
-    @model_validator(mode="after")
-    def _require_one_of_each(self) -> Compression:
-        if (self.setting is None) == (self.fulcrum is None):
-            raise refusal("needs a setting or a fulcrum", "write one of both")
-        if (self.curve is None) == (self.stiffness is None):
-            raise refusal("needs a curve or a stiffness", 'write curve = "soft.csv", or stiffness and sd')
-        if (self.stiffness is None) != (self.sd is None):
-            raise refusal("needs sd beside stiffness", "it is the standard deviation of the stiffness, for both")
-        return self
 
 
 class Actuator(Document):
@@ -335,31 +252,7 @@ class Actuator(Document):
         Without load.
     """
 
-    speed: Annotated[StatedNumber, _quantity(ACTUATOR)]
-
-
-class Bench(Document):
-    """How the compressions were done.
-
-    Parameters
-    ----------
-    at
-        Where the plate presses on the keel; its tip by default.
-    noise
-        Standard deviation of one measured deflection; 0.05 mm by default.
-    series
-        Stiffness of all that gives besides the keel, where it is known; identified by default.
-    tilt
-        Of the plate against the sole, toes first; 20 degrees by default.
-    travel
-        Of the sole when its numbers are fitted; 5 mm by default.
-    """
-
-    at: Length | None = None
-    noise: Annotated[StatedNumber, _quantity(GAUGE)] | None = None
-    series: Stiffness | None = None
-    tilt: Annotated[StatedNumber, _quantity(TILTED)] | None = None
-    travel: Annotated[StatedNumber, _quantity(PRESSED)] | None = None
+    speed: Annotated[StatedNumber, quantity(ACTUATOR)]
 
 
 class FootDescription(Document):
@@ -404,40 +297,3 @@ class FootDescription(Document):
 def read_foot_description(path: Path) -> FootDescription:
     """The description; InputError for what is missing or cannot be."""
     return read_document(path, FootDescription)
-
-
-@dataclass(frozen=True, eq=False)
-class CompressionCurve:
-    """A measured compression: force [N] and deflection [m], as recorded."""
-
-    force: Float[np.ndarray, " n"]
-    deflection: Float[np.ndarray, " n"]
-
-
-FEWEST = 5
-"""Rows of a curve."""
-HIGHEST = 2e4, 0.1
-"""Force [N] and deflection [m] of a foot, at most."""
-
-
-def read_compression_curve(path: Path) -> CompressionCurve:
-    """A table with `force [N]` and `deflection [mm]`, in any units of theirs; InputError for what is none."""
-    wanted = ("force [N]", "deflection [m]")
-    table = read_side_table(path, wanted)
-    for name in wanted:
-        if name not in table:
-            what = f"no column for {name.split()[0]} with its unit; columns are: {', '.join(map(str, table.columns))}"
-            raise InputError(path, "line 1", what, "write force [N], deflection [mm]")
-    force, deflection = (table[name].to_numpy(float) for name in wanted)
-    if len(force) < FEWEST:
-        raise InputError(path, "", f"{len(force)} rows are no curve", f"give {FEWEST} or more")
-    for name, values, most in zip(wanted, (force, deflection), HIGHEST, strict=True):
-        if not np.isfinite(values).all():
-            raise InputError(path, name, "has an empty cell or one that is no number", "fill it or take its row out")
-        if np.abs(values).max() > most:
-            what = f"goes up to {np.abs(values).max():.4g}; a foot has {most:g} at most"
-            raise InputError(path, name, what, "check the unit of the column")
-    if not np.ptp(deflection) > 0.0 or np.corrcoef(force, deflection)[0, 1] <= 0.0:
-        remedy = "give a compression with both positive; is a sign turned?"
-        raise InputError(path, "", "force does not rise with deflection", remedy)
-    return CompressionCurve(force, deflection)

@@ -147,7 +147,7 @@ def write_table(table: pd.DataFrame, folder: Path, name: str = "area", units: Ma
     """Write `name`.csv: 12 digits, empty cells for missing values.
 
     Columns in seconds have microseconds however late their clock is. Nothing but the header stands above the rows:
-    what a table refers to is told in run.json. ValueError where a column is in another unit than `units` has for its
+    what a table refers to is stated in run.json. ValueError where a column is in another unit than `units` has for its
     kind: every table of every command goes through here.
     """
     if odd := misfits(table.columns, units):

@@ -1,6 +1,6 @@
 """State machine of the controller: work phases from what it senses, and how well they are detected.
 
-Yao et al. (2024), Robotics 13:27, fig. 7: lifting and lowering are told by elevation and rate of the device's arm,
+Yao et al. (2024), Robotics 13:27, fig. 7: lifting and lowering are known by elevation and rate of the device's arm,
 screwing by the tool's current. The paper's thresholds came from tuning and are not printed; those here are tuned on
 synthetic trials. Hysteresis: each phase is left at another threshold than it is entered, and only if the condition has
 held for a while. The support moves the arm that it is controlled by: when the tool stops, less support lets the device

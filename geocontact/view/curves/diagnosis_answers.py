@@ -50,7 +50,7 @@ def ranking_figure(models: Sequence[Ranked]) -> Figure:
 
 
 CELL = 0.0048  # side of a cell [m]
-SEPARABILITY_MOST = 20.0  # nats at which the colours end: told apart beyond doubt
+SEPARABILITY_MOST = 20.0  # nats at which the colours end: separable beyond doubt
 FEW = 40  # effects up to which cells carry numbers
 
 

@@ -97,7 +97,7 @@ def _height(shapes: list[np.ndarray]) -> float:
 
 
 def _colours() -> Colormap:
-    """Cividis without its palest end: told apart by colour-blind readers, darker to lighter in grey."""
+    """Cividis without its palest end: distinguished by colour-blind readers, darker to lighter in grey."""
     import matplotlib as mpl
     from matplotlib.colors import ListedColormap
 

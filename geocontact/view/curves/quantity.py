@@ -50,7 +50,7 @@ TIME = Quantity("time", "s")
 CYCLE = Quantity("cycle", "%")  # positions in a cycle are percentages throughout, as in Motion.time of unit "%"
 
 
-SERIES = 6  # how many lines are still told apart by colour, line and marker
+SERIES = 6  # how many lines are still distinguished by colour, line and marker
 
 
 def array(name: str, values: ArrayLike, shape: tuple[int | str, ...]) -> Float[np.ndarray, "*shape"]:
@@ -83,7 +83,7 @@ def positions(along: Quantity, values: ArrayLike) -> Float[np.ndarray, " t"]:
 
 
 def named(what: str, series: Mapping[str, ArrayLike], shape: tuple[int | str, ...]) -> dict[str, np.ndarray]:
-    """Arrays by name, at least one and no more than can be told apart."""
+    """Arrays by name, at least one and no more than can be distinguished."""
     if not series:
         raise ValueError(f"{what}: nothing to draw")
     if len(series) > SERIES:

@@ -239,3 +239,17 @@ def test_heads_of_tables_stay_on_one_line_on_a_phone(opened: Open) -> None:
     assert max(cells) < 390, "a hash is read without scrolling along it"
     assert min(cells) > 20, "and nothing is broken letter by letter"
     assert here.tab.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+
+
+@pytest.mark.parametrize("device", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_a_name_in_the_legend_wraps_before_its_number_does(opened: Open, device: dict[str, Any]) -> None:
+    """ "-0.0199" stood above "5" beside a long name in a narrow card."""
+    curve = Curve("− penetration of the fixed body by the moving one " * 3, -0.01995 + np.zeros(5))
+    here = opened(Page("a", "", np.arange(5.0), "", sections=[Curves("panel", "mm", [curve])]), device=device)
+    (value,) = here.tab.evaluate(
+        "[...document.querySelectorAll('.key .value')].map(e => { const r = document.createRange();"
+        " r.selectNodeContents(e); return [e.textContent, new Set([...r.getClientRects()].map(b => b.top)).size,"
+        " e.scrollWidth <= e.clientWidth]; })"
+    )
+    assert value == ["−0.01995", 1, True]
+    assert here.tab.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -80,7 +80,7 @@ class Worked:
 
 
 def worked(task: Task) -> Worked:
-    """Draw, write, read, diagnose on one core; whatever breaks down is told and scored as wrong."""
+    """Draw, write, read, diagnose on one core; whatever breaks down is named and scored as wrong."""
     with threadpool_limits(limits=1):
         return _worked(task)
 

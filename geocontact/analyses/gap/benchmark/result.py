@@ -88,7 +88,7 @@ class BenchmarkResult(Result):
 
 @dataclass(frozen=True)
 class Work:
-    """Cases in the order in which they are told of, and the journal that keeps them."""
+    """Cases in the order in which they are reported, and the journal that keeps them."""
 
     seed: int
     systems: tuple[str, ...]

@@ -265,7 +265,7 @@ def outcome(
     marks: Mapping[str, str],
     forms: TableForms,
 ) -> Outcome:
-    """Diagnosis of one case into draft/<case>; what is wrong is told, not raised.
+    """Diagnosis of one case into draft/<case>; what is wrong is written, not raised.
 
     Parameters
     ----------

@@ -253,9 +253,9 @@ class Fitted:
     stretches
         Of time, that intervals count.
     all_directions, free_directions
-        What is told least of k and the lengths, and of those of them that are free.
+        What is least known of k and the lengths, and of those of them that are free.
     separable
-        Whether a fixation of the upper arm that yields can be told from a softer cuff.
+        Whether a fixation of the upper arm that yields is separable from a softer cuff.
     held
         Of every trial left out, or of the recordings that were held out.
     bins_differ, neighbours
@@ -336,7 +336,7 @@ class Free:
     boxes
         Their samples in wide bins.
     stiffness
-        Locked force over the free joint's displacement; None where that is not told.
+        Locked force over the free joint's displacement; None where that is not identified.
     scale
         What the displacement tells of the lengths; None without a standard error.
     """

@@ -55,7 +55,7 @@ Pairs = Mapping[str, tuple[float, float]]
 
 
 def unknowns(known: Values, prior: Pairs, bounds: Pairs, start: Values, free: Sequence[str]) -> tuple[Parameter, ...]:
-    """The numbers in the order of NAMES, in SI; InputError where what is told of them contradicts itself."""
+    """The numbers in the order of NAMES, in SI; InputError where what is given of them contradicts itself."""
     _refuse_free(free)
     for option, given in (("`bounds`", bounds), ("`start`", start), ("`prior`", prior)):
         _refuse_not_free(option, given, known, free)

@@ -137,7 +137,7 @@ def _say_what_is_open(found: Fitted) -> None:
 
 
 def described(found: Fitted, free: Free | None) -> dict[str, Any]:
-    """Numbers, intervals, what is told and what is not, tests; units in the keys."""
+    """Numbers, intervals, what is identified and what is not, tests; units in the keys."""
     e, residuals, noise = found.estimate, found.residuals, found.data.noise
     content: dict[str, Any] = {
         "numbers": with_units(e.named),
@@ -324,7 +324,7 @@ def _scale(found: Fitted) -> str:
 
 
 def fixation_words(found: Fitted) -> str:
-    """What k holds beside the cuff, and how far a fixation that yields could be told from it."""
+    """What k holds beside the cuff, and how far a fixation that yields is separable from it."""
     apart, c = found.separable, found.estimate.named["c"]
     if not apart.told:
         told = "Angle and force cannot separate them: only 1/k + c is identified."

@@ -164,7 +164,7 @@ def _correlation(description: Path, told: PopulationFile, factors: list[Factor])
 
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 LEVELS = 200
-"""Forces at which the exceedance is told."""
+"""Forces at which the exceedance is given."""
 
 REGRESSED = 20_000
 """Samples that the regression on ranks takes, from the first on."""

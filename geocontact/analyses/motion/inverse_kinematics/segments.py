@@ -158,8 +158,11 @@ def segments_given(o: IkOptions, model: Multibody) -> Segments:
             raise InputError(seen.source, "`time`", what, remedy)
         seen = part
     bodies = _bodies(model, seen, o.markers_map)
+    if not seen.of(tuple(bodies)).there.any():
+        raise InputError(seen.source, "", "no frame shows any of these segments", "is it the right file?")
     still = seen
     if o.calibration is not None:
+        _require_kind(o.calibration, o.markers)
         whole = still = _read(o, o.calibration)
         add_input("`calibration`", o.calibration, frames=len(still), segments=len(still.names))
         lost = [name for name in bodies if name not in still.names]
@@ -178,6 +181,14 @@ def segments_given(o: IkOptions, model: Multibody) -> Segments:
     faces = "" if o.heading is not None else ", facing its x axis (else `heading`)"
     reserve(f"{where} places segments in bodies: the person is taken to stand as the model does by default{faces}")
     return Segments(seen.of(names), own, placed, np.asarray(model.up), root)
+
+
+def _require_kind(calibration: Path, recording: Path) -> None:
+    """InputError for a calibration of another kind of file: one has places of its segments, the other has none."""
+    ending = recording.suffix.lower()
+    if calibration.suffix.lower() != ending:
+        what = f"is no {ending} file, which {recording.name} is"
+        raise InputError(calibration, "`calibration`", what, "give a trial of the same system")
 
 
 def _read(o: IkOptions, file: Path) -> SegmentPoses:
@@ -293,14 +304,23 @@ def _heading(
     return Rotation.from_rotvec(float(np.arctan2(model.up @ np.cross(theirs, ours), theirs @ ours)) * model.up)
 
 
+ORIGINS = 3
+"""Fewest origins that place a body without an orientation."""
 UPRIGHT = 0.5
 """Level part of a unit vector below which it does not say where somebody faces: 60 degrees from level."""
 
 
 def segment_tasks(model: Multibody, segments: Segments, o: IkOptions) -> MarkerTasks:
-    """Weight 1 of every orientation and origin, or that of `weight`; coordinates of `hold`."""
+    """Weight 1 of every orientation and origin, or that of `weight`; coordinates of `hold`.
+
+    InputError where fewer than one orientation or three origins have a weight.
+    """
     sizes = dict.fromkeys(segments.sizes, 1.0)
     sizes |= weights_typed(o.weight, set(sizes), f"{segments.names[0]}=10")
+    counted = [name for name, weight in sizes.items() if weight > 0.0]
+    if len(counted) < ORIGINS and not set(counted) & set(segments.names):
+        what = f"no orientation of a segment has a weight, and {len(counted) or 'no'} origins"
+        raise InputError(o.markers, "`weight`", what, f"leave one orientation in, or {ORIGINS} origins")
     return MarkerTasks(segments.weights(sizes), held_near(model, o.hold))
 
 

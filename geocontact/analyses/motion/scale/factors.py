@@ -117,7 +117,7 @@ ABSURD = 0.5, 2.0
 
 
 def factors_told(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...]) -> Factors:
-    """Factors of bodies along their axes, as `scale` is told them.
+    """Factors of bodies along their axes, as `scale` states them.
 
     femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee is the mean over the pairs, pelvis=1.05 a number; femur_r:xz=... is
     along these axes only. An axis of which nothing is said keeps its length.
@@ -173,7 +173,7 @@ def _named(bodies: str) -> list[tuple[str, list[int]]]:
 def _factor(
     model: Multibody, rest: Float[np.ndarray, " n"], seen: MarkerTrajectories, text: str, size: str
 ) -> float | None:
-    """The number told, or the one that pairs of markers tell; None for a text that is neither."""
+    """The number typed, or the one that pairs of markers measure; None for a text that is neither."""
     ends = [pair.partition("/") for pair in size.split(",")]
     if not all(slash for _, slash, _ in ends):
         return _number(size)

@@ -22,7 +22,7 @@ from geocontact.below_knee_prosthesis.keel.identification import (
 )
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
-from geocontact.io.recordings.foot_description import Compression, read_compression_curve
+from geocontact.io.recordings.foot_bench import Compression, read_compression_curve
 
 NOISE, TILT, TRAVEL = 5e-5, radians(20.0), 5e-3
 """Standard deviation of a measured deflection [m]; tilt of the plate against the sole [rad] and its travel [m]."""

@@ -58,7 +58,7 @@ class Worn:
     markers, names
         All that were recorded, in the device's frame at the same times [m]; NaN where they were not seen.
     tool
-        Whether the tool runs; None where nobody told.
+        Whether the tool runs; None where it is not known.
     controllers
         By side; None where the support is constant.
     """

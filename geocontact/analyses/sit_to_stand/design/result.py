@@ -104,7 +104,7 @@ class StandingDesignResult(Result):
 
     @property
     def reference(self) -> CertifiedDesign:
-        """What the gain is told over: share alone, or no help where nothing else was sought."""
+        """What the gain is relative to: share alone, or no help where nothing else was sought."""
         return self.designs[1] if len(self.designs) > 2 else self.designs[0]
 
     @property

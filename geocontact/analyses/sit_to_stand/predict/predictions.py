@@ -162,7 +162,7 @@ def trials_begun(predictions: Sequence[PredictedTrial]) -> tuple[StandingTrial, 
 
 
 Keep = Callable[[Sequence[PredictedTrial]], None]
-"""Told of all predictions that there are, as soon as a trial is done."""
+"""Called with all predictions that there are, as soon as a trial is done."""
 
 
 @dataclass

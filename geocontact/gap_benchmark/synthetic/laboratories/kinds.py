@@ -92,7 +92,7 @@ class LaboratoryKind:
         In all: 4, what a diagnosis asks for (fewest), 4 or 5 (few), 5 or 6 as in the home laboratory (usual), 7 or 8
         (several), 9 to 12 (many).
     trouble
-        placed: all sits a little elsewhere in every trial; constants: told a little wrong, in all trials alike;
+        placed: all sits a little elsewhere in every trial; constants: stated a little wrong, in all trials alike;
         warm_up: gains and zeros settle in the first trials.
     quotient
         Whether a centre of pressure is a noisy moment over a noisy force.
@@ -212,7 +212,7 @@ OVER, LAG = (0.6, 0.8, 1.0), (0.05, 0.25)
 COLD = (1.0, 2.5)
 """What is off in the first trial, in what usually varies from trial to trial."""
 CONSTANT = 0.01
-"""Standard deviation of what is told wrong of a constant that is no length of the placement, as a share of it."""
+"""Standard deviation of the stated error of a constant that is no length of the placement, as a share of it."""
 
 
 def laboratory_of_kind(rng: Rng, scene: SyntheticScene, kind: LaboratoryKind) -> SyntheticScene:

@@ -322,17 +322,17 @@ def test_names_of_trials_are_no_paths(tmp_path: Path, scheduler: str) -> None:
 PAGE = {
     "name a program": "tests/io/test_gap_case.py::test_a_program_is_not_run_unasked",
     "name a module of Python": "tests/systems/test_own_model.py::test_code_in_the_folder_of_a_case_is_not_run",
-    "allow it itself": "tests/study/test_strangers.py::test_no_file_starts_what_it_names_by_itself",
+    "allow it itself": "tests/study/test_files_of_others.py::test_no_file_starts_what_it_names_by_itself",
     "lead out of their folder": "tests/study/test_store.py::test_a_table_elsewhere_is_refused",
     "a pipe, a device": "tests/io/test_preflight.py::test_commands_refuse_pipes_and_devices",
     "a script or an address": "tests/view/page/test_write.py::test_hostile_texts_change_no_element",
-    "cells that begin with": "tests/study/test_strangers.py::test_a_command_quotes_them",
+    "cells that begin with": "tests/study/test_files_of_others.py::test_a_command_quotes_them",
     "show folders of your machine": "tests/cli/test_opensim_setup.py::test_what_is_written_is_read_back",
 }
 """Words of each row of the page, and the test that holds it."""
 
 
-HERE = "tests/study/test_strangers.py::"
+HERE = "tests/study/test_files_of_others.py::"
 ATTACKS = {
     "rerun starts the program of a case": f"{HERE}test_no_file_starts_what_it_names_by_itself",
     "cohort starts it": f"{HERE}test_no_file_starts_what_it_names_by_itself",
@@ -369,7 +369,7 @@ def test_every_attack_has_its_test(attack: str) -> None:
 
 
 def test_every_line_of_the_page_has_its_test() -> None:
-    text = (ROOT / "docs/reference/strangers_files.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs/reference/files_of_others.md").read_text(encoding="utf-8")
     rows = [line for line in text.splitlines() if line.startswith("| ")][1:]
     assert len(rows) == len(PAGE)
     for row, (words, place) in zip(rows, PAGE.items(), strict=True):
