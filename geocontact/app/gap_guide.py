@@ -63,14 +63,13 @@ class GapGuide:
         self.pages = element("div", "pages")
         ui.timer(LOOK, self._look)
 
-    def show(self, run: Run, beside: bool) -> None:
+    def show(self, name: str, address: str, beside: bool) -> None:
         """The page of a result, in place of another one or beside it."""
         if not beside:
             self.pages.clear()
         with self.pages, element("section"):
-            text("h2", run.title)
-            sandbox = "allow-scripts allow-downloads"
-            element("iframe", src=run.address, title=f"results in {run.title}", sandbox=sandbox)
+            text("h2", name)
+            element("iframe", src=address, title=f"results in {name}", sandbox="allow-scripts allow-downloads")
 
     def _steps(self) -> None:
         text("h2", "1. Model")
@@ -173,8 +172,8 @@ class GapGuide:
 
     async def _look(self) -> None:
         for run in [panel.run for panel in self._panels.values() if panel.refresh()]:
-            if run.page is not None:
-                self.show(run, beside=False)
+            for name, address in run.pages.items():
+                self.show(name, address, beside=False)
             if run is self._first and run.state == "done":
                 await self._ask(run.out)
             if run is self._first and run.message:

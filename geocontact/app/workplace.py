@@ -189,8 +189,8 @@ class RunPlace(Protocol):
     queue: Queue
     runs: Element
 
-    def show(self, run: Run, beside: bool) -> None:
-        """The page of a result."""
+    def show(self, name: str, address: str, beside: bool) -> None:
+        """The page of a result by its name and address."""
 
 
 class RunPanel:
