@@ -134,7 +134,7 @@ def thinned(case: GapCase, outputs: Sequence[str], around: float = 0.0) -> GapCa
 
 def _measured_share(trial: Trial, outputs: Sequence[str]) -> float:
     """Share of a trial's samples in which the output was measured that was measured most often."""
-    return max(1.0, *(np.isfinite(trial.column(name)).sum() for name in outputs)) / len(trial)
+    return max(1.0, *(float(np.isfinite(trial.column(name)).sum()) for name in outputs)) / len(trial)
 
 
 def _length(trial: Trial, measured: float, share: float, around: float) -> int:

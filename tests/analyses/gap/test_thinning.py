@@ -89,7 +89,7 @@ def test_stretches_of_what_is_measured_now_and_then_are_longer() -> None:
 
 
 def test_stretches_are_longer_where_many_inputs_stay_around_them() -> None:
-    """1.59 s around each at 200 Hz are 318 samples, five times as many as a stretch of 60 has."""
+    """At 200 Hz 1.59 s around each are 318 samples, five times as many as a stretch of 60 has."""
     case = case_of(100_000, 5)
     quick = tuple(replace(one, signals=replace(one.signals, time=0.5 * one.time)) for one in case.calibration)
     case = replace(case, calibration=quick, evaluation=())
