@@ -240,7 +240,7 @@ class Form:
         kinds = {one.name: bool if one.kind == "flag" else str for one in fields_of(command)}
         return cls(
             command,
-            {name: value for name, value in values if isinstance(value, kinds.get(name, ()))},
+            {name: value for name, value in values if type(value) is kinds.get(name)},
             {name: unit for name, unit in units if isinstance(unit, str)},
         )
 
@@ -275,10 +275,9 @@ def fields_of(command: str) -> tuple[Field, ...]:
 
 def _of_before(command: str) -> list[Declared]:
     """What is asked before the options: a set-up file of OpenSim, trials of a folder."""
-    found = [(SETUP, Path, opensim_setup)] if command in opensim_setup.COMMANDS else []
-    if command in folders.COMMANDS:
-        found.append((TRIAL, tuple[str, ...], folders))
-    return [_asked(name, kind, place.HELP) for name, kind, place in found]
+    setup = [_asked(SETUP, Path, opensim_setup.HELP)] if command in opensim_setup.COMMANDS else []
+    trials = [_asked(TRIAL, tuple[str, ...], folders.HELP)] if command in folders.COMMANDS else []
+    return setup + trials
 
 
 def _in_place(one: Declared, before: Iterable[Declared]) -> Declared:
