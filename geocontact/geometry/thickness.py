@@ -63,7 +63,7 @@ class ThicknessMap:
             return np.full(len(shares), np.nan)
         order = there[np.argsort(values[there], kind="stable")]
         middle = np.cumsum(self.area[order]) - 0.5 * self.area[order]
-        return np.interp(shares, middle / self.area[order].sum(), values[order])
+        return np.asarray(np.interp(shares, middle / self.area[order].sum(), values[order]))
 
     def mean_sd(self, values: Float[np.ndarray, " k"]) -> tuple[float, float]:
         """Mean and standard deviation over the area that has a thickness [m]; NaN where none has."""

@@ -63,7 +63,7 @@ class WearFactor:
 
     def at(self, ratio: Float[np.ndarray, " p"]) -> Float[np.ndarray, " p"]:
         """k at these ratios [m^2/N]."""
-        return np.interp(ratio, self.ratio, self.factor)
+        return np.asarray(np.interp(ratio, self.ratio, self.factor))
 
 
 class SlidingWork:

@@ -369,8 +369,10 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     flexions = flexions_of(o, _expanded(o.motion or ()), motions)
     cutting = cutting_of(o.events, o.cycle_side, o.part)
     stems = tuple(path.stem for path in _expanded(o.motion or ()))
-    known = {"flexions": flexions, "cutting": cutting, "stems": stems, "wear": wear_factor_of(o)}
-    bodies = Bodies(moving, fixed, settings, motions, reference, error, **known)
+    wear = wear_factor_of(o)
+    bodies = Bodies(
+        moving, fixed, settings, motions, reference, error, flexions=flexions, cutting=cutting, stems=stems, wear=wear
+    )
     return _outer(o, bodies, {"moving": outer_moving, "fixed": outer_fixed})
 
 
