@@ -15,8 +15,9 @@ from geocontact.analyses.frame.result import Result
 from geocontact.analyses.mat.comparison import AXES, load_table
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat, cells_of, mat_and_marks
-from geocontact.analyses.mat.recording import PreparedFrames, Travel
+from geocontact.analyses.mat.recording import PreparedFrames
 from geocontact.analyses.mat.shear import MatShear, shear_table
+from geocontact.analyses.mat.travel import Travel
 from geocontact.data.frame_blocks import parts, worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.geometry.drape.cells import Drape

@@ -28,7 +28,8 @@ from geocontact.analyses.mat.placement import (
     say_how_it_closes,
     say_which_side,
 )
-from geocontact.analyses.mat.recording import read_recording, read_segment_motion, read_shear
+from geocontact.analyses.mat.recording import read_recording, read_shear
+from geocontact.analyses.mat.travel import read_segment_motion
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.data.pressure_frames import PressureFrames

@@ -27,9 +27,10 @@ from geocontact.analyses.mat.comparison import compared
 from geocontact.analyses.mat.loads import MatFindings, loads, mat_tables
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, closest_point, placed, read
-from geocontact.analyses.mat.recording import followed, made_ready
+from geocontact.analyses.mat.recording import made_ready
 from geocontact.analyses.mat.shear import mat_shear
 from geocontact.analyses.mat.show import FRAMES, cells_figure, mat_figure, mat_page, shown_frames
+from geocontact.analyses.mat.travel import followed
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import parts
 from geocontact.data.version import VERSION

@@ -16,7 +16,8 @@ from jaxtyping import Bool, Float, Int
 from geocontact.analyses.frame.collector import note, reserve, say
 from geocontact.analyses.mat.options import MatOptions
 from geocontact.analyses.mat.placed import MatInputs, PlacedMat
-from geocontact.analyses.mat.recording import TOUCH, Travel
+from geocontact.analyses.mat.recording import TOUCH
+from geocontact.analyses.mat.travel import Travel
 from geocontact.data.frame_blocks import worked
 from geocontact.data.pressure_frames import PressureFrames
 from geocontact.loads.friction_limit import CAUSES, FrictionLimit, friction_limit, noise_of

@@ -13,9 +13,9 @@ from geocontact.below_knee_prosthesis.keel.identification import (
     compressed_curve,
     compressed_to,
     identified_keel,
-    identified_sole,
 )
 from geocontact.below_knee_prosthesis.keel.sections import Sections
+from geocontact.below_knee_prosthesis.keel.sole_identification import identified_sole
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_foot, vsf_keel
 
 LENGTH, EI, SERIES, NOISE = 0.229, 17.0, 80e3, 2e-5

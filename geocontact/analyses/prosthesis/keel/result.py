@@ -35,10 +35,9 @@ from geocontact.below_knee_prosthesis.keel.identification import (
     SERIES,
     IdentifiedKeel,
     IdentifiedNumber,
-    IdentifiedSole,
     identified_keel,
-    identified_sole,
 )
+from geocontact.below_knee_prosthesis.keel.sole_identification import IdentifiedSole, identified_sole
 from geocontact.data.errors import InputError
 from geocontact.data.parameter import Number
 from geocontact.data.plausible import Plausible
