@@ -65,8 +65,8 @@ def test_help_groups_what_belongs_together() -> None:
             lambda: gc.inverse_kinematics("a.trc", model="a.osim", zzz=1),
             (
                 "ik: there is no argument `zzz` (there are `tasks`, `follow`, `marker_set`, `markers_map`, `naming`, "
-                "`weight`, `hold`, `fill`, `calibration`, `heading`, `knee`, `joint_angles`, `events`, `part`, "
-                "`analog`, `axes`, `c3d_unit` and `time`)"
+                "`model_setup`, `weight`, `hold`, `fill`, `calibration`, `heading`, `knee`, `joint_angles`, "
+                "`events`, `part`, `analog`, `axes`, `c3d_unit` and `time`)"
             ),
         ),
     ],
