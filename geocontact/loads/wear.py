@@ -144,7 +144,7 @@ def tangents(normal: Float[np.ndarray, "p 3"]) -> tuple[Float[np.ndarray, "p 3"]
 
 
 @dataclass(frozen=True, eq=False)
-class Worn:
+class LayerWear:
     """What a layer loses after many cycles of one motion.
 
     Parameters
@@ -217,10 +217,10 @@ class Wearing:
             self._second.add(pressure)
             self._halfway = self._all.work
 
-    def after(self, factor: WearFactor, cycles: float) -> Worn:
+    def after(self, factor: WearFactor, cycles: float) -> LayerWear:
         """The wear of so many cycles of the frames taken in."""
         all_, area = self._all, self._all.pieces.area
         fine = float(self._halfway @ area)
         coarser = float(np.abs(self._second.work - self._halfway) @ area) / fine if fine > 0.0 else 0.0
         ratio = all_.ratio
-        return Worn(all_.pieces, cycles, all_.work, ratio, factor.at(ratio), float(all_.closing @ area), coarser)
+        return LayerWear(all_.pieces, cycles, all_.work, ratio, factor.at(ratio), float(all_.closing @ area), coarser)

@@ -34,7 +34,7 @@ from geocontact.geometry.surface_quadrature import surface_quadrature
 from geocontact.loads.foundation import Layer, Pressed, Skin, layer_on
 from geocontact.loads.pressure_evolution import PressureEvolution, pressure_evolution
 from geocontact.loads.pressure_pose_error import PressureUncertainty, pressure_uncertainty
-from geocontact.loads.wear import Wearing, Worn
+from geocontact.loads.wear import LayerWear, Wearing
 
 FEW = 0.9
 """Share of the contact area that has both curvatures, below which a warning says so."""
@@ -124,7 +124,7 @@ STRAINED = 0.2  # largest strain that the linear law is trusted to
 
 def pressures_of(
     bodies: Bodies, o: AreaOptions, name: str, motion: Motion, kept: Sequence[int]
-) -> tuple[PressureEvolution, Worn | None]:
+) -> tuple[PressureEvolution, LayerWear | None]:
     """Loads of all frames; pressures of the frames in `kept` and of the one with the largest force; wear by these."""
     moving, counted = bodies.moving, bodies.settings.fixed_faces
     if not moving.closed:
@@ -270,7 +270,7 @@ class MotionResult:
     reservations: tuple[str, ...]
     published: pd.DataFrame | None = None
     pressure_error: PressureUncertainty | None = None
-    wear: Worn | None = None
+    wear: LayerWear | None = None
 
 
 def tables_of(bodies: Bodies, one: MotionResult, o: AreaOptions) -> dict[str, pd.DataFrame]:

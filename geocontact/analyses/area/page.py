@@ -36,7 +36,7 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import AreaUncertainty
 from geocontact.geometry.surface import Surface
-from geocontact.loads.wear import Worn
+from geocontact.loads.wear import LayerWear
 from geocontact.view.page.content import Choices, Page, PageChoice, Readout, Section, Table, Words
 
 HEADER = ("body", "vertices", "faces", "edge, median [mm]", "edge, longest [mm]", "size [mm]", "closed")
@@ -283,7 +283,7 @@ def thinned_page(
     uncertainty: AreaUncertainty | None = None,
     congruence: CongruenceEvolution | None = None,
     published: pd.DataFrame | None = None,
-    wear: Worn | None = None,
+    wear: LayerWear | None = None,
 ) -> Thinned:
     """The page of one contact-area analysis, of as many frames as its file holds.
 

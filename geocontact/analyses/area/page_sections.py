@@ -20,7 +20,7 @@ from geocontact.geometry.contact_area.evolution import Settings
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import ENDS, NORMAL, AreaUncertainty
 from geocontact.geometry.surface import Surface
-from geocontact.loads.wear import Worn
+from geocontact.loads.wear import LayerWear
 from geocontact.view.page.content import Curve, Curves, FaceMap, Points, Row, Scene, SceneBody, Strip, Table
 from geocontact.view.surfaces.camera import camera_directions
 
@@ -69,7 +69,7 @@ class Told:
     uncertainty: AreaUncertainty | None = None
     congruence: CongruenceEvolution | None = None
     published: pd.DataFrame | None = None
-    wear: Worn | None = None
+    wear: LayerWear | None = None
 
     @property
     def frames(self) -> Int[np.ndarray, " k"]:

@@ -14,7 +14,7 @@ from geocontact.data.plausible import BEARING
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.side_table import read_side_table
 from geocontact.loads.pressure_evolution import PressureEvolution
-from geocontact.loads.wear import WearFactor, Wearing, Worn
+from geocontact.loads.wear import LayerWear, WearFactor, Wearing
 from geocontact.view.page.content import FaceMap, Words
 
 CYCLES = 1e6
@@ -48,7 +48,7 @@ def wear_factor_of(o: AreaOptions) -> WearFactor | None:
         raise InputError(o.cross_shear, "", str(error), "give ratios from 0 to 0.5, sorted, each once") from error
 
 
-def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e: PressureEvolution) -> Worn:
+def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e: PressureEvolution) -> LayerWear:
     """Wear of the layer over all cycles of one motion, and what is to be said of it."""
     found = wearing.after(factor, CYCLES if o.wear_cycles is None else o.wear_cycles)
     label = f"{name}: " if name else ""
@@ -95,7 +95,7 @@ OPEN = 0.01
 """Share of the work that the way from the last pose back to the first may be without a warning."""
 
 
-def _doubt_motion(found: Worn, label: str) -> None:
+def _doubt_motion(found: LayerWear, label: str) -> None:
     if found.coarser > FRAMES:
         reserve(
             f"{label}every second frame alone changes the depths of wear by {found.coarser:.0%} on average: "
@@ -113,7 +113,7 @@ THIN = 0.05
 """Share of the layer's thickness that may wear without a warning."""
 
 
-def _doubt_depth(found: Worn, e: PressureEvolution, label: str) -> None:
+def _doubt_depth(found: LayerWear, e: PressureEvolution, label: str) -> None:
     """A reservation where the surface changes so much that its pressures would."""
     depth, thickness = float(found.depth.max(initial=0.0)), float(e.layer.thickness[found.deepest])
     pressed = e.strain * float(e.layer.thickness.max())
@@ -130,7 +130,7 @@ BEYOND = 0.01
 """Share of the work that may be at ratios that the table does not hold."""
 
 
-def _doubt_ratios(found: Worn, factor: WearFactor, label: str) -> None:
+def _doubt_ratios(found: LayerWear, factor: WearFactor, label: str) -> None:
     if not factor.depends:
         return
     low, high = factor.ratio[0], factor.ratio[-1]
@@ -147,12 +147,12 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole > 0.0 else 0.0
 
 
-def mean_ratio(found: Worn) -> float:
+def mean_ratio(found: LayerWear) -> float:
     """Cross-shear ratio of the layer, places weighted with their work [-]."""
     return _share(float((found.ratio * found.work) @ found.pieces.area), found.total_work)
 
 
-def wear_sentence(found: Worn) -> str:
+def wear_sentence(found: LayerWear) -> str:
     """How much, and where it is deepest."""
     said = f"wear after {found.cycles:g} cycles: {found.volume * MM3:.4g} mm^3"
     if not found.volume > 0.0:
@@ -161,7 +161,7 @@ def wear_sentence(found: Worn) -> str:
     return f"{said}, deepest {found.depth[found.deepest] * MM:.3g} mm at x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
 
 
-def wear_table(found: Worn, fixed: Surface) -> pd.DataFrame:
+def wear_table(found: LayerWear, fixed: Surface) -> pd.DataFrame:
     """A row for each face of FIXED that wears: place, mean depth, volume, cross-shear ratio and wear factor."""
     faces, pieces = len(fixed.faces), found.pieces
     volume = np.bincount(pieces.face, found.depth * pieces.area, faces)
@@ -187,18 +187,18 @@ def wear_table(found: Worn, fixed: Surface) -> pd.DataFrame:
     )
 
 
-def face_depths(found: Worn, faces: int) -> Float[np.ndarray, " f"]:
+def face_depths(found: LayerWear, faces: int) -> Float[np.ndarray, " f"]:
     """Mean depth of wear of each of the `faces` faces of FIXED [m]."""
     return found.pieces.face_means(found.depth, faces)
 
 
-def wear_map(found: Worn, faces: int, frames: int) -> FaceMap:
+def wear_map(found: LayerWear, faces: int, frames: int) -> FaceMap:
     """Colours of the wear, the same in all frames."""
     depth = face_depths(found, faces) * MM
     return FaceMap(f"wear after {found.cycles:g} cycles", "mm", 0, np.tile(depth, (frames, 1)))
 
 
-def wear_facts(found: Worn) -> list[tuple[str, str]]:
+def wear_facts(found: LayerWear) -> list[tuple[str, str]]:
     """Volume and depth."""
     after = f"after {found.cycles:g} cycles"
     x, y, z = found.pieces.point[found.deepest] * MM
@@ -206,7 +206,7 @@ def wear_facts(found: Worn) -> list[tuple[str, str]]:
     return [(f"Volume worn {after}", f"{found.volume * MM3:.4g} mm³"), ("Deepest wear", deepest)]
 
 
-def wear_words(found: Worn) -> Words:
+def wear_words(found: LayerWear) -> Words:
     """The law of wear and what it leaves out."""
     used = found.factor[found.work > 0.0] * MM3_PER_N_M
     ends = dict.fromkeys(f"{end:.3g}" for end in (used.min(), used.max())) if len(used) else {"0": None}

@@ -153,7 +153,8 @@ def test_region_of_moving(tmp_path: Path, clipped: AreaResult) -> None:
 def test_long_regions_are_expressions_not_file_names(tmp_path: Path, knee: AreaResult) -> None:
     region = " and ".join(f"(x < {limit} or z > -{limit})" for limit in range(100, 120))
     assert len(region) > 300
-    agree(area(FEMUR, INSERT, gait(tmp_path), region=region).table(), knee.table())
+    table = area(FEMUR, INSERT, gait(tmp_path), region=region).table()
+    agree(table.drop(columns="coverage_fixed [-]"), knee.table())
 
 
 def test_rules_order_as_they_must(tmp_path: Path, knee: AreaResult) -> None:

@@ -69,7 +69,9 @@ def test_each_pair_is_its_single_run_to_the_last_digit(found: PairsResult, tmp_p
     for name, alone in (("medial", medial), ("lateral", lateral), ("patellofemoral", behind)):
         same(found.table(f"{name}/area"), alone)
         rows = found.table("pairs")
-        same(rows[rows["pair"] == name].drop(columns="pair").reset_index(drop=True), alone)
+        own = rows[rows["pair"] == name].drop(columns="pair").reset_index(drop=True)
+        same(own[alone.columns], alone)
+        assert own.drop(columns=alone.columns).isna().all().all(), "coverage of a region that another pair has"
     totals = found.table()
     np.testing.assert_array_equal(totals["area_medial [mm^2]"], medial["area_fixed [mm^2]"])
     three = medial["area_fixed [mm^2]"] + lateral["area_fixed [mm^2]"] + behind["area_fixed [mm^2]"]
