@@ -44,7 +44,7 @@ addEventListener('popstate', () => location.reload());
 const ports = new WeakMap();
 const attach = frame => {
   const { port1, port2 } = new MessageChannel();
-  port1.onmessage = ({ data }) => keep(frame, data);
+  port1.onmessage = ({ data }) => store(frame, data);
   ports.set(frame, port1);
   frame.contentWindow.postMessage('geocontact', '*', [port2]);
   if (frame.marked) port1.postMessage(frame.marked);
@@ -55,7 +55,7 @@ const mark = (id, faces) => {
   frame.marked = faces;
   ports.get(frame)?.postMessage(faces);
 };
-const keep = async (frame, { name, text, landmarks }) => {
+const store = async (frame, { name, text, landmarks }) => {
   const detail = { path: '', wrong: '', landmarks };
   try {
     const answer = await fetch(frame.dataset.to + '?name=' + encodeURIComponent(name), { method: 'POST', body: text });
