@@ -196,3 +196,31 @@ def test_family_wise_p_counts_flips_that_reach_as_far(blocks: int, columns: int)
     by_hand = [(1 + sum(one >= each - 1e-12 for one in largest)) / 2001 for each in reached]
     np.testing.assert_allclose(found, by_hand, rtol=0, atol=1e-12)
     assert found[-1] == 1.0 and found[0] < 0.2
+
+
+def test_what_was_left_out_does_not_outweigh_what_was_used() -> None:
+    """Stretches of 3 Hz in 2 % of a trial, and 20 Hz in the one at 0.5: their energies, at their place."""
+    time = np.arange(50_001) / 100.0
+    value = np.full((len(time), 1), np.nan)
+    begins = np.arange(0, 50_000, 5_000)
+    for begin in begins:
+        stretch = slice(begin, begin + 101)
+        value[stretch, 0] = np.sin(2.0 * np.pi * 3.0 * (time[stretch] - time[begin]))
+    there = value.copy()
+    middle = slice(25_000, 25_101)
+    there[middle, 0] += 0.5 * np.sin(2.0 * np.pi * 20.0 * (time[middle] - time[25_000]))
+    used = 10 * 101 / (10 * 101 + 9 * 19 + 20)  # of what is looked at, with the bridges and that to the end
+    slow, burst = energies(time, value)[0], energies(time, there)[0]
+    assert slow[1] == pytest.approx(0.5 * used, rel=0.1)
+    assert burst[2] - slow[2] == pytest.approx(0.125 * used / 10, rel=0.15)
+    fast = burst[3:] - slow[3:]
+    assert int(np.argmax(fast)) == PHASES // 2 and fast.max() > 0.9 * fast.sum()
+
+
+def test_outputs_that_are_rarer_than_inputs_keep_their_time() -> None:
+    """A swing of 3 Hz at 25 samples a second beside inputs of a thousand stays one of 1 to 5 Hz."""
+    time = np.arange(4_001) / 1000.0
+    value = np.full((len(time), 1), np.nan)
+    value[::40, 0] = np.sin(2.0 * np.pi * 3.0 * time[::40])
+    found = energies(time, value)[0]
+    assert found[1] > 0.9 * found[:3].sum()

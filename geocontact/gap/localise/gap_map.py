@@ -31,7 +31,7 @@ from geocontact.data.gap_cells import BAND, FAST, FAST_PHASE, Cell, shares
 from geocontact.gap.case.change_amplitude import BLOCKS
 from geocontact.gap.case.problem import Problem, noise_variance
 from geocontact.gap.data_errors import DataError, put_back
-from geocontact.gap.levels import DRAWS, PHASES
+from geocontact.gap.levels import DRAWS, FEW, FEWEST, PHASES
 from geocontact.gap.selection.evidence import Judged
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE, ENDS
 
@@ -83,25 +83,44 @@ def energies(time: Float[np.ndarray, " t"], values: Float[np.ndarray, "t c"]) ->
     """Mean square of every channel in every band, then above `FAST` in every part of the phase.
 
     Missing samples are NaN; a channel without any has no energy. Of even steps as long as the trial's are in the
-    median, so that a pause in the recording makes no others longer.
+    median, so that a pause in the recording makes no others longer. Where outputs lie in stretches, with `FEW` pauses
+    of more than `FEWEST` of their steps, as many steps bridge each, so that what was left out does not outweigh what
+    was used.
     """
-    span = time[-1] - time[0]
-    count = min(round(span / float(np.median(np.diff(time)))), FINEST * len(time)) + 1
-    even = np.linspace(time[0], time[-1], count)
+    step = float(np.median(np.diff(time)))
+    own = _without_pauses(time, np.isfinite(values).any(axis=1))
+    count = min(round((own[-1] - own[0]) / step), FINEST * len(time)) + 1
+    even = np.linspace(own[0], own[-1], count)
     bridged = np.zeros((count, values.shape[1]))
     for c, column in enumerate(values.T):
         there = np.isfinite(column)
         if there.any():
-            bridged[:, c] = np.interp(even, time[there], column[there])
+            bridged[:, c] = np.interp(even, own[there], column[there])
     waves = dct(bridged, axis=0, norm="ortho")
     frequency = np.arange(count) / (2.0 * count * (even[1] - even[0]))
     power = waves**2 / count
     bands = [power[(frequency >= low) & (frequency < high)].sum(axis=0) for low, high in pairwise(BANDS)]
     fast = idct(np.where(frequency[:, None] >= FAST, waves, 0.0), axis=0, norm="ortho") ** 2
-    part = np.arange(count) * PHASES // count
+    if own is time:
+        part = np.arange(count) * PHASES // count
+    else:
+        phase = (np.interp(even, own, time) - time[0]) / (time[-1] - time[0])
+        part = np.minimum(phase * PHASES, PHASES - 1).astype(int)
     number = np.maximum(np.bincount(part, minlength=PHASES), 1)
     over = [np.bincount(part, column, PHASES) / number for column in fast.T]
     return np.concatenate([np.array(bands).T, np.array(over)], axis=1)
+
+
+def _without_pauses(time: Float[np.ndarray, " t"], there: Bool[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+    """Times with pauses of `FEWEST` steps between stretches of what is there; `time` itself where there are none."""
+    if np.count_nonzero(there) < FEWEST:
+        return time
+    longest = FEWEST * float(np.median(np.diff(time[there])))
+    ends = np.unique(np.concatenate([[0], np.flatnonzero(there), [len(time) - 1]]))
+    steps = np.diff(time[ends])
+    if np.count_nonzero(steps > longest) < FEW:
+        return time
+    return np.interp(time, time[ends], np.concatenate([[0.0], np.cumsum(np.minimum(steps, longest))]))
 
 
 def _placed(
