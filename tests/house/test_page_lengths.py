@@ -61,7 +61,7 @@ LIMITS = {
     "reference/corrected_numbers.md": 430,
     "reference/durability.md": 410,
     "reference/gap_benchmark.md": 2570,
-    "reference/gap_case.md": 890,
+    "reference/gap_case.md": 900,
     "reference/gap_effects.md": 1050,
     "reference/gap_real_data.md": 1620,
     "reference/input_files.md": 1900,

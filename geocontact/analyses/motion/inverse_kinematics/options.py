@@ -48,12 +48,6 @@ class IkOptions(Options):
         given again.
     fill
         Longest gap [s] over which coordinates that no marker determines are filled by a spline; longer ones stay empty.
-    events
-        Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
-        be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.
-        Those of a .c3d file count without it.
-    part
-        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
     analog
         Write the other analog channels of a .c3d, EMG among them, at their own rate: analog.sto.
     axes
@@ -62,6 +56,15 @@ class IkOptions(Options):
         Unit of places in .c3d files whose own, POINT:UNITS, is empty.
     time
         First and last time [s]: 0.4:1.6.
+
+    Gait cycles
+    -----------
+    events
+        Heel strikes of a side [s], between which the coordinates are averaged over the gait cycle: right=0.63,1.86. May
+        be given again. Or a table side, event, time [s] (heel strike, toe off), with recording where it is for several.
+        Those of a .c3d file count without it.
+    part
+        Use only this first part of each cycle: 60%, or stance, which ends at the toe off.
 
     Segments and sensors
     --------------------
