@@ -127,7 +127,9 @@ def test_a_side_that_fails_stops_the_measurement(tmp_path: Path) -> None:
 def test_figures_of_the_page_are_those_of_the_results() -> None:
     told = json.loads((ROOT / "benchmarks" / "results" / "peers_table.json").read_text(encoding="utf-8"))["figures"]
     page = (ROOT / "docs" / "reference" / "peers.md").read_text(encoding="utf-8")
-    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| `")]
+    rows = [
+        line.strip("| ").split(" | ") for line in page.split("## What slow")[0].splitlines() if line.startswith("| `")
+    ]
     assert len(rows) == len(told["jobs"]) == 5
     for (_, _, whole, whole_ratio, again, again_ratio, error), job in zip(rows, told["jobs"], strict=True):
         for cell, ratio, key in ((whole, whole_ratio, "whole"), (again, again_ratio, "again")):
@@ -136,11 +138,11 @@ def test_figures_of_the_page_are_those_of_the_results() -> None:
         sizes = {float(each) for each in re.findall(r"\d[\d.]*(?:e-?\d+)?", error)}
         assert sizes == {float(f"{job[side]['off']:.1g}") for side in ("ours", "peer")}
     slower = [a / b for job in told["jobs"] for a, b in zip(job["ours"]["whole"], job["peer"]["whole"], strict=True)]
-    assert 2.9 <= min(slower) < 3.0 and round(max(slower)) == 7
+    assert 2.6 <= min(slower) < 2.7 and round(max(slower)) == 6
     for text in (page, (ROOT / "README.md").read_text(encoding="utf-8")):
-        assert "take 2.9 to 7 times as long" in text
+        assert "take 2.6 to 6 times as long" in text
     found = {row["engine"].replace(",", "").split()[0]: row["ratio"] for row in told["distances"]}
-    words = {"warp": "warp 1.9", "fcpw": "fcpw 2.8", "libigl": "libigl 27", "open3d": "open3d\n27", "VTK": "VTK 182"}
+    words = {"warp": "warp 1.7", "fcpw": "fcpw 2.7", "libigl": "libigl 25", "open3d": "open3d 26", "VTK": "VTK 159"}
     for name, said in words.items():
         assert said.replace("\n", " ") in page.replace("\n", " ")
         assert float(said.split()[1]) == pytest.approx(found[name], rel=0.03)

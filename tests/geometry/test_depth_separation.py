@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from geocontact.geometry.kernels.floor import _lowest
 from geocontact.geometry.separation import CLOSE, Collider, separation, settle
+from geocontact.geometry.surface import Surface
 from meshes import reference
 from meshes import simple_shapes as shapes
 from tests.geometry.bodies import MM, contact, cube, moved, order_of, pose_of, surface, turned
@@ -98,6 +100,33 @@ def test_cube_pushed_into_a_larger_one(depth, swapped):
     assert -found.min_distance / MM == pytest.approx(depth, abs=DEEP / MM)
     # the large cube's face between the small one's walls is as deep as the small one's floor in the large cube
     assert found.max_penetration_fixed / MM == pytest.approx(depth, abs=DEEP / MM)
+
+
+@pytest.mark.parametrize("height", [2.0, -1.0])
+def test_below_the_opening_of_a_body_taken_as_closed_nothing_is_deep(height):
+    """Normals of the walls say inside there, winding numbers outside.
+
+    Points of the plate within the cup, near its opening, are no deeper than its walls are far.
+    """
+    vertices, faces = cube((0, 0, 0), 10.0)
+    low = np.isclose(vertices[faces][:, :, 1], vertices[:, 1].min()).all(axis=1)
+    cup = Surface(vertices * MM, faces[~low], assume_closed=True)
+    plate = surface(cube((0, -5.0, 0), (60.0, 5.0, 60.0)), "plate")
+    for turn in (0.0, 20.0):
+        found = contact(cup, plate, pose_of(turned(0, turn, 0), np.array([0.3, 10.0 + height, 0.7]) * MM), 0.0)
+        rays = np.stack(np.meshgrid(*[np.linspace(-9.9, 9.9, 67)] * 2, indexing="ij"), axis=-1).reshape(-1, 2)
+        inside = np.zeros(len(rays)) if height > 0 else 10.0 - np.abs(rays).max(axis=1)
+        assert found.max_penetration_fixed / MM <= inside.max() + DEEP / MM
+
+
+def test_the_lowest_floors_are_kept():
+    """Of more faces than are divided at a time exactly those with the lowest floors, also beside an outlier."""
+    rng = np.random.default_rng(5)
+    for floor in (rng.random(501), np.append(rng.random(500), -1e6), np.append(rng.random(500), 1e6), np.zeros(400)):
+        keep = np.arange(len(floor))
+        kept = getattr(_lowest, "py_func", _lowest)(keep.copy(), floor, 300)
+        assert len(kept) == 300 and (np.diff(kept) > 0).all()
+        assert sorted(floor[kept]) == sorted(floor)[:300]
 
 
 @pytest.mark.slow

@@ -59,7 +59,7 @@ def test_no_unit_has_two_dimensions() -> None:
 def test_prefixes_are_powers_of_ten(si: str, unit: str) -> None:
     """A unit that is another one with a prefix is that many of it; checked for every pair there is."""
     for prefix, factor in (("m", 1e-3), ("k", 1e3), ("M", 1e6), ("G", 1e9), ("u", 1e-6), ("h", 1e2), ("c", 1e-2)):
-        turned = unit.split("/")[0]  # what is above the line
+        turned = unit.split("/", maxsplit=1)[0]  # what is above the line
         power = 2 if turned.endswith("m^2") and " " not in turned else 3 if turned.endswith("m^3") else 1
         longer = f"{prefix}{unit}"
         if longer in DIMENSIONS[si] and longer != "min":

@@ -58,7 +58,7 @@ def sphere_force(
 ) -> tuple[Vector, Vector, Vector, Vector, float, float]:
     """Force of a sphere that touches, and what its change is made of.
 
-    Pressing and force are results. Given are the force, the same per pressing, the direction of sliding, the slopes of
+    Pressing and force are written to `told`. Returned are the force, the same per pressing, the direction of sliding, the slopes of
     the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is never 0.
     """
     rate = -dot(n, v)

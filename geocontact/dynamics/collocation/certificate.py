@@ -4,7 +4,7 @@ A small residual at the points says nothing of the polynomials between them. So 
 times finer grid with both ends of every interval, at the start of which Radau's points leave most, and another method
 of integration follows the same controls: from every node over one interval and over a longer window, and once from the
 start to the end. That last run departs even from an exact solution where the motion is unstable (in standing up a
-deviation grows by up to 1e8 in 1.5 s), so it is judged by what the errors of the intervals become on their way to the
+deviation grows by up to 4e8 in 1.5 s), so it is judged by what the errors of the intervals become on their way to the
 end at most.
 """
 

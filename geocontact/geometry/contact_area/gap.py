@@ -95,7 +95,7 @@ class Facing:
 def least_distance(one: Facing, two: Facing) -> float:
     """Smallest distance of the two surfaces [m], exact to rounding; 0 where they meet.
 
-    The least distance of a vertex, which both maps tell, is an upper bound; only edges that can come nearer are
+    The least distance of a vertex, which both maps have, is an upper bound; only edges that can come nearer are
     measured.
     """
     best = min(_nearest_found(one), _nearest_found(two))

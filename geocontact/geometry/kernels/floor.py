@@ -34,7 +34,7 @@ def deepest(tree, place, above, reach, use, faces, edges, points, signed, slot, 
         keep = _lowest(keep, floor, most)
         faces, edges, points, signed, slot = _taken(keep, faces, edges, points, signed, slot)
         side = np.empty(len(points), np.int8)
-        asked = _measured(tree, points, signed, slot, side)
+        asked = _measured(tree, use, points, signed, slot, side)
         effort[0] -= 1
         effort[1] += len(keep)
         above = above[:0]  # known for triangles as given, worth finding anew for smaller ones
@@ -45,21 +45,28 @@ def deepest(tree, place, above, reach, use, faces, edges, points, signed, slot, 
 @inner
 def _lowest(keep, floor, most):
     """Those of `keep` with the lowest floors, at most `most` of them."""
-    bar, low, count = np.inf, np.inf, len(keep)
-    if count > most:
-        bar = -np.inf
-        for each in floor:
-            bar, low = max(bar, each), min(low, each)
-    while count > most and low < bar:
-        bar = low + 0.5 * (bar - low)
+    if len(keep) <= most:
+        return keep
+    low, bar = np.inf, -np.inf
+    for each in floor:
+        low, bar = min(low, each), max(bar, each)
+    room = most
+    for _ in range(64):  # up to `low` lie no more than `most` of them, up to `bar` more
+        middle = low + 0.5 * (bar - low)
         count = 0
         for each in floor:
-            count += each <= bar
+            count += each <= middle
+        if count > most:
+            bar = middle
+        else:
+            low, room = middle, most - count
     count = 0
     for k in range(len(keep)):
-        if floor[k] <= bar and count < most:
-            keep[count] = keep[k]
-            count += 1
+        if floor[k] <= low or (floor[k] <= bar and room > 0):
+            room -= floor[k] > low
+            if count < most:
+                keep[count] = keep[k]
+                count += 1
     return keep[:count]
 
 
@@ -89,10 +96,11 @@ def _taken(keep, faces, edges, points, signed, slot):
 
 
 @inner
-def _measured(tree, points, signed, slot, side):
+def _measured(tree, use, points, signed, slot, side):
     """Fill in what is not known of the middles of edges, and say whether the side of one of them is in doubt.
 
-    A middle is searched for as far as the ends of its edge allow: distance is 1-Lipschitz.
+    A middle is searched for as far as the ends of its edge allow: distance is 1-Lipschitz. Without `use` all are taken
+    as outside, for the caller to find the sides of those that can be inside.
     """
     nodes, keys, square, fan = scratch()
     asked = False
@@ -109,7 +117,9 @@ def _measured(tree, points, signed, slot, side):
         d2, found = nearest(
             tree.boxes, tree.child, tree.leaves, tree.fill, x, y, z, limit * limit, nodes, keys, square, fan
         )
-        _, _, _, side[m] = side_of(tree.leaves, tree.slots, tree.normal, tree.row, found, x, y, z)
+        side[m] = 1
+        if use:
+            _, _, _, side[m] = side_of(tree.leaves, tree.slots, tree.normal, tree.row, found, x, y, z)
         signed[m], slot[m] = np.sqrt(d2), tree.slots[found]
         if side[m] < 0:
             signed[m] = -signed[m]

@@ -117,7 +117,7 @@ ABSURD = 0.5, 2.0
 
 
 def factors_told(model: Multibody, seen: MarkerTrajectories, texts: tuple[str, ...]) -> Factors:
-    """Factors of bodies along their axes, as `scale` states them.
+    """Factors of bodies along their axes, as the option `scale` takes them.
 
     femur_r,femur_l=R.Hip/R.Knee,L.Hip/L.Knee is the mean over the pairs, pelvis=1.05 a number; femur_r:xz=... is
     along these axes only. An axis of which nothing is said keeps its length.

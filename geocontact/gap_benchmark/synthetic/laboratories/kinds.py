@@ -212,7 +212,7 @@ OVER, LAG = (0.6, 0.8, 1.0), (0.05, 0.25)
 COLD = (1.0, 2.5)
 """What is off in the first trial, in what usually varies from trial to trial."""
 CONSTANT = 0.01
-"""Standard deviation of the stated error of a constant that is no length of the placement, as a share of it."""
+"""Standard deviation of the error of a stated constant that is no length of the placement, as a share of it."""
 
 
 def laboratory_of_kind(rng: Rng, scene: SyntheticScene, kind: LaboratoryKind) -> SyntheticScene:
