@@ -70,7 +70,7 @@ LIMITS = {
     "reference/opensim_models.md": 600,
     "reference/paper_004.md": 1180,
     "reference/real_implants.md": 550,
-    "reference/speed.md": 1340,
+    "reference/speed.md": 1360,
     "reference/terms.md": 540,
     "reference/written_files.md": 1800,
     "theory/centre_of_pressure.md": 720,

@@ -58,8 +58,9 @@ def sphere_force(
 ) -> tuple[Vector, Vector, Vector, Vector, float, float]:
     """Force of a sphere that touches, and what its change is made of.
 
-    Pressing and force are written to `told`. Returned are the force, the same per pressing, the direction of sliding, the slopes of
-    the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is never 0.
+    Pressing and force are written to `told`. Returned are the force, the same per pressing, the direction of sliding,
+    the slopes of the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is
+    never 0.
     """
     rate = -dot(n, v)
     pressing = normal_force(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
