@@ -32,6 +32,7 @@ STARTED_BY = {
     "io/mesh/step.py": "names an error of the former",
     "app/runs.py": "runs of the window: tests/app/test_runs.py",
     "app/files.py": "readers of files that are dropped: tests/app/test_files.py",
+    "app/faces.py": "faces that a region chooses: tests/app/test_surface_view.py",
     "app/fields.py": "quotes a line, starts nothing",
 }
 """Every module that starts processes, and which."""
@@ -85,7 +86,7 @@ def test_each_python_is_started_without_the_current_folder() -> None:
         mentioned = sum(map(is_python, ast.walk(tree)))
         lists += len(begun)
         others += [file.relative_to(ROOT / "geocontact").as_posix()] * (mentioned - len(begun))
-    assert lists == 6
+    assert lists == 8
     assert set(others) <= {"study/cluster.py", "io/cases/gap_case.py", "cli/doctor.py"}, others
 
 
