@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import geocontact as gc
-from geocontact.analyses.gap.chosen_columns import ChosenColumn, recorded_columns, write_chosen
+from geocontact.analyses.gap.chosen_columns import UNITS, ChosenColumn, is_known, recorded_columns, write_chosen
 from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case
+from geocontact.io.cases.trial_table import read_trial
 
 RADIUS = 0.037
 
@@ -115,6 +116,62 @@ def test_columns_keep_their_numbers_and_units_are_not_guessed(tmp_path: Path) ->
     percent.write_text("time [%],force [N]\n0,1\n50,2\n100,3\n")
     with pytest.raises(gc.InputError, match="per cent"):
         recorded_columns(percent)
+
+
+def trial_of(folder: Path, head: str, chosen: ChosenColumn, name: str = "t.csv") -> str:
+    """Header of the trial that is written from a recording with this head."""
+    file = folder / name
+    rows = ("0 10", "0.5 20", "1 30")
+    file.write_text("\n".join([head, *(row if name.endswith("o") else row.replace(" ", ",") for row in rows)]) + "\n")
+    write_chosen(file, [chosen], folder / "out.csv")
+    return (folder / "out.csv").read_text("utf-8").partition("\n")[0]
+
+
+def test_a_unit_that_one_file_states_is_not_taken_for_another_that_states_none(tmp_path: Path) -> None:
+    """`stated` is what the first file says: deg, nothing, or a word that is no known unit."""
+    deg, none, word = (ChosenColumn("knee", "knee", "deg", stated) for stated in ("deg", "", "degrees"))
+    assert trial_of(tmp_path, "time [s],knee [deg]", deg) == "time [s],knee [deg]"
+    assert trial_of(tmp_path, "time [s],knee [rad]", deg) == "time [s],knee [rad]"  # each states its own: 10 rad stay
+    assert trial_of(tmp_path, "time [s],knee", none) == "time [s],knee [deg]"
+    assert trial_of(tmp_path, "time [s],knee [°]", none) == "time [s],knee [°]"
+    assert trial_of(tmp_path, "time [s],knee [degrees]", word) == "time [s],knee [deg]"
+    for head, chosen, words in (
+        ("time [s],knee", deg, "column knee has no unit; in the first file it is in 'deg'"),
+        ("time [s],knee", word, "column knee has no unit; in the first file it is in 'degrees'"),
+        ("time [s],knee [degrees]", none, "column knee is in 'degrees'; in the first file it has none"),
+        ("time [s],knee [radians]", word, "column knee is in 'radians'; in the first file it is in 'degrees'"),
+        ("time [s],knee [rad]", none, "column knee is in rad, not in deg"),
+        ("time [s],knee [rad]", word, "column knee is in rad, not in deg"),
+        ("time [s],knee [N]", deg, "column knee is in N, not in deg"),
+    ):
+        with pytest.raises(gc.InputError, match=words):
+            trial_of(tmp_path, head, chosen)
+
+
+@pytest.mark.parametrize(("flag", "said", "other"), [("yes", "deg", "rad"), ("no", "rad", "deg")])
+def test_angles_are_in_the_unit_of_the_header(tmp_path: Path, flag: str, said: str, other: str) -> None:
+    head = f"name\nversion=1\nnRows=3\nnColumns=2\ninDegrees={flag}\nendheader\ntime knee"
+    for rate in ("", "/s", "/s^2"):
+        for unit in (f"{said}{rate}", "N", "rpm"):
+            assert trial_of(tmp_path, head, ChosenColumn("knee", "x", unit), "t.sto") == f"time [s],x [{unit}]"
+        wrong = ChosenColumn("knee", "x", f"{other}{rate}")
+        with pytest.raises(gc.InputError, match=f"line 5: 'inDegrees={flag}' says that angles are in {said}") as caught:
+            trial_of(tmp_path, head, wrong, "t.sto")
+        assert f"choose {said}{rate}, or" in str(caught.value)
+    silent = head.replace(f"inDegrees={flag}\n", "")
+    assert trial_of(tmp_path, silent, ChosenColumn("knee", "x", other), "t.sto") == f"time [s],x [{other}]"
+
+
+def test_every_unit_that_is_offered_can_be_read(tmp_path: Path) -> None:
+    """Those of angular speed, length in cm and stiffness among them; 10 of each in the trial."""
+    assert {"cm", "rad/s", "deg/s", "N m/rad", "m/s^2"} <= set(UNITS) and not is_known("degrees") and not is_known("")
+    for unit in UNITS:
+        trial_of(tmp_path, "time [s],a", ChosenColumn("a", "a", unit))
+        column = read_trial(tmp_path / "out.csv")
+        assert column.signals.column("a")[0] == pytest.approx(10.0 * column.column("a").factor), unit
+    given = np.radians(10.0)
+    trial_of(tmp_path, "time [s],a", ChosenColumn("a", "a", "deg/s"))
+    assert read_trial(tmp_path / "out.csv").signals.column("a")[0] == pytest.approx(given)
 
 
 def test_a_shipped_model_has_channels_of_its_own_and_asks_for_its_numbers(tmp_path: Path) -> None:
