@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geocontact.analyses.gap.chosen_columns import UNITS, is_known
+from geocontact.analyses.frame.quantities import UNITS, is_known
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
 

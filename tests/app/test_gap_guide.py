@@ -11,12 +11,15 @@ import numpy as np
 import pytest
 from nicegui import Client
 from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
 from nicegui.events import GenericEventArguments, handle_event
 from nicegui.page import page
 
 from geocontact.analyses.frame.rerun import differing, results_of
+from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.app.gap_columns import CHANNELS, ColumnTable
 from geocontact.app.gap_files import answer_questions, columns_of, write_trials
+from geocontact.app.gap_questions import QuestionTable
 from geocontact.systems.elbow import ELBOW
 from geocontact.systems.knee import KNEE
 from tests.app.conftest import Window
@@ -105,6 +108,28 @@ def test_a_unit_is_offered_where_the_file_states_none_that_is_known(tmp_path: Pa
     head = (tmp_path / "out" / "t1.csv").read_text("utf-8").partition("\n")[0]
     assert head == "time [s],knee [deg],speed [deg/s],hip [deg]"
     assert "t2.csv: column hip has no unit" in write_trials(files, table.rows(), tmp_path / "out")[0]
+
+
+def test_questions_that_no_field_answers_are_shown() -> None:
+    number = {"start": 50.0, "lower": "?", "upper": "?", "unit": ""}
+    settings = {"calibration": ["t1"], "evaluation": ["t2"], "parameters": {"k": number}, "noise": {"M": 0.1}}
+    client = Client(page(""), request=None)
+    with client.content:
+        table = QuestionTable({**settings, QUESTIONS: ["are M the outputs?"]}, ["M"])
+    words = [one.text for one in client.elements.values() if isinstance(one, TextElement)]
+    assert words[words.index("Open, and kept in case.toml as comments:") + 1] == "are M the outputs?"
+    change(client, "lower of k", "10")
+    change(client, "upper of k", "200")
+    change(client, "unit of k", "N m/rad")
+    assert table.answers() == {
+        "evaluation": ["t2"],
+        "numbers": {"k": {"start": 50.0, "lower": 10.0, "upper": 200.0, "unit": "N m/rad"}},
+        "noise": {"M": 0.1},
+    }
+    none = Client(page(""), request=None)
+    with none.content:
+        QuestionTable({**settings, QUESTIONS: []}, ["M"])
+    assert not any("kept in" in one.text for one in none.elements.values() if isinstance(one, TextElement))
 
 
 def finished(tab: Page, count: int) -> str:

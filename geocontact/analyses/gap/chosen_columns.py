@@ -8,12 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from geocontact.analyses.frame.quantities import is_known
 from geocontact.data.errors import InputError
 from geocontact.io.text.tables import TextTable, listed, read_table
-from geocontact.io.text.units import DIMENSIONS, si_unit
+from geocontact.io.text.units import si_unit
 
-UNITS = tuple(unit for units in DIMENSIONS.values() for unit in units)
-"""Units that can be chosen for a column."""
 TURNS = ("rad", "rad/s", "rad/s^2")
 """What OpenSim means by the angles of a .mot or .sto: its Kinematics writes speeds and accelerations in deg as well."""
 
@@ -33,11 +32,6 @@ class ChosenColumn:
     channel: str
     unit: str
     stated: str = ""
-
-
-def is_known(unit: str) -> bool:
-    """Whether a column in this unit can be read as it is."""
-    return si_unit(unit) is not None
 
 
 def recorded_columns(path: Path) -> list[tuple[str, str]]:
