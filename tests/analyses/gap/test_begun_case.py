@@ -133,11 +133,12 @@ def test_what_was_written_by_hand_stays(tmp_path: Path) -> None:
     """Sections and keys of others; what cannot be kept line by line, and numbers nobody answers, are refused."""
     case = spring_case(tmp_path)
     file = case / "case.toml"
-    by_hand = '[constants] # SI\nm = 2.5\n\n[trial.t2]\nlevel = 0.5\ncondition = "[a]"\n\n'
+    by_hand = '[constants] # SI\nm = 2.5\n# 1. weighed\n\n[trial.t2]\nlevel = 0.5\ncondition = "[a]"\n\n'
     begun = file.read_text("utf-8")
     for place in ("[noise]", "[parameters.k]"):
         file.write_text(begun.replace(place, by_hand + place))
         answer_case(case, ["t4"], SPRING, {"M": 0.1})
+        assert file.read_text("utf-8").count("# 1. weighed") == 1
         found = tomllib.loads(file.read_text("utf-8"))
         assert found["constants"] == {"m": 2.5} and found["trial"] == {"t2": {"level": 0.5, "condition": "[a]"}}
         assert found["noise"] == {"M": 0.1} and list(found["parameters"]) == ["k"] and "# SI" in file.read_text("utf-8")

@@ -7,7 +7,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -41,8 +41,7 @@ def begun_settings(folder: Path) -> dict[str, Any]:
     """What case.toml of a begun case says, with "?" for what is open, and by `QUESTIONS` what `answer_case` leaves."""
     file = folder / SETTINGS
     lines = read_text_bytes(file).decode("utf-8", "replace").splitlines()
-    asked = [found["words"] for line in lines if (found := _QUESTION.match(line))]
-    return {**toml_of(file, LARGEST_SETTINGS), QUESTIONS: [one for one in asked if not one.startswith(_ANSWERED)]}
+    return {**toml_of(file, LARGEST_SETTINGS), QUESTIONS: [line.partition(". ")[2] for line in _left(lines)]}
 
 
 def answer_case(
@@ -116,6 +115,12 @@ def _check_kept(file: Path, said: Mapping[str, Any], text: str, written: tuple[M
         raise InputError(file, "", what, "write lists on one line, and noise and parameters as [noise], [parameters.k]")
 
 
+def _left(lines: Sequence[str]) -> list[str]:
+    """Questions above the first section that neither numbers nor noise answer."""
+    head = takewhile(lambda line: not _SECTION.match(line), lines)
+    return [line for line in head if (found := _QUESTION.match(line)) and not found["words"].startswith(_ANSWERED)]
+
+
 def _lines(
     text: str,
     calibration: Sequence[str],
@@ -126,8 +131,7 @@ def _lines(
     """Head and sections without what is answered; trials, noise and numbers anew."""
     lines = text.splitlines()
     begins = [k for k, line in enumerate(lines) if _SECTION.match(line)] + [len(lines)]
-    asked = [line for line in lines if (found := _QUESTION.match(line)) and not found["words"].startswith(_ANSWERED)]
-    if asked:
+    if asked := _left(lines):
         yield from (ASKED, *asked)
     for line in lines[: begins[0]]:
         key = line.partition("=")[0].strip()
