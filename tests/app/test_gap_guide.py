@@ -104,6 +104,7 @@ def test_a_unit_is_offered_where_the_file_states_none_that_is_known(tmp_path: Pa
     files = [tmp_path / f"t{k}.csv" for k in (1, 2)]
     for file, hip in zip(files, (" [degrees]", ""), strict=True):
         file.write_text(f"time [s],knee [deg],speed,hip{hip}\n0,1,2,3\n1,1,2,3\n")
+    (tmp_path / "out").mkdir()
     assert write_trials(files[:1], table.rows(), tmp_path / "out") == []
     head = (tmp_path / "out" / "t1.csv").read_text("utf-8").partition("\n")[0]
     assert head == "time [s],knee [deg],speed [deg/s],hip [deg]"
