@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from geocontact.analyses.frame.quantities import UNITS, is_known
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
 
-UNITS = ("m", "mm", "rad", "deg", "m/s", "N", "kN", "lbf", "N m", "N mm", "m^2", "mm^2", "Pa", "kPa", "MPa")
-"""Units that can be chosen for a column whose file states none."""
 INPUT, OUTPUT = "input", "output"
 CHANNELS: dict[str, dict[str, tuple[str, ...]]] = {
     "elbow": {INPUT: ("beta",), OUTPUT: ("force",)},
@@ -21,7 +20,7 @@ CHANNELS: dict[str, dict[str, tuple[str, ...]]] = {
 
 
 class ColumnTable:
-    """A row for each column: what it is, and its unit where the file states none; nothing is chosen at first.
+    """A row for each column: what it is, and its unit where the file states no known one; nothing is chosen at first.
 
     Parameters
     ----------
@@ -35,21 +34,24 @@ class ColumnTable:
         self.columns = list(columns)
         self._model = model
         self._role = {name: self._named(name) for name, _ in columns}
-        self._unit = dict(columns)
+        self._unit = {name: unit if is_known(unit) else "" for name, unit in columns}
         for name, unit in columns:
             with element("div", "field"), element("div", "in"):
                 text("span", f"{name}{f' [{unit}]' if unit else ''}")
                 made = choice(self._roles(), self._role[name], aria_label=f"{name} is")
                 made.on("change", lambda e, name=name: self._role.update({name: str(e.args)}), js_handler=VALUE)
-                if not unit:
+                if not is_known(unit):
                     units = [("", "unit …"), *((each, each) for each in UNITS)]
                     made = choice(units, "", aria_label=f"unit of {name}")
                     made.on("change", lambda e, name=name: self._unit.update({name: str(e.args)}), js_handler=VALUE)
 
     def rows(self) -> list[dict[str, str]]:
-        """Columns that were chosen, with channel and unit."""
-        chosen = [name for name, _ in self.columns if self._role[name]]
-        return [{"column": name, "channel": self._channel(name), "unit": self._unit[name]} for name in chosen]
+        """Columns that were chosen, as `ChosenColumn` has them."""
+        return [
+            {"column": name, "channel": self._channel(name), "unit": self._unit[name], "stated": stated}
+            for name, stated in self.columns
+            if self._role[name]
+        ]
 
     def sides(self) -> dict[str, str | bool]:
         """Options `inputs` and `outputs` of `gap init`."""

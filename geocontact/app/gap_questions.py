@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.app.elements import element, text
 from geocontact.app.form_view import CHECKED, VALUE
 
@@ -18,7 +19,7 @@ class QuestionTable:
     Parameters
     ----------
     settings
-        What case.toml says now.
+        What case.toml says now, as `begun_settings` has it; questions that no field here answers are shown.
     outputs
         Channels that the model predicts.
     """
@@ -27,7 +28,12 @@ class QuestionTable:
         self._trials = [*settings["calibration"], *settings["evaluation"]]
         self._held = {name: name in settings["evaluation"] for name in self._trials}
         self._numbers: dict[str, dict[str, Any]] = {}
-        self._noise = dict.fromkeys(outputs, "")
+        self._noise = {name: str(settings.get("noise", {}).get(name, "")) for name in outputs}
+        if settings[QUESTIONS]:
+            text("p", "Open, and kept in case.toml as comments:")
+            with element("ul"):
+                for question in settings[QUESTIONS]:
+                    text("li", question)
         with element("div", "field"):
             text("p", "Held out, nothing is fitted to them:")
             for name in self._trials:

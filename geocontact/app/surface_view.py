@@ -62,6 +62,7 @@ class SurfaceView:
         self._pages, self._serve, self._upload = pages, serve, upload
         self._region = region_of(form.command, one.name)
         self._frame: Any = None
+        self._in_unit = ""
         self._asked: dict[str, Any] | None = None
         self._box: Box | None = None
         button = text("button", "show in 3-D", type="button", aria_label=f"show {path.name} in 3-D")
@@ -79,10 +80,10 @@ class SurfaceView:
         self._said.text = "…"
         self._pages.mkdir(parents=True, exist_ok=True)
         self._said.text = str(await aside.io_bound(write_page, self._path, unit, out))
-        self._picture.clear()
-        self._frame, self._asked, self._box = None, None, None
+        self._clear()
         if self._said.text:
             return
+        self._in_unit = unit
         with self._picture:
             title = f"{self._path.name} in 3-D"
             self._frame = element(
@@ -99,17 +100,31 @@ class SurfaceView:
             self._uses = element("div", "uses", aria_live="polite")
         await self.colour()
 
+    def _clear(self) -> None:
+        self._picture.clear()
+        self._frame, self._asked, self._box = None, None, None
+
     async def colour(self) -> None:
-        """Colour the faces that count, where what is filled in says something else than before."""
-        while self._frame is not None and self._region and (asked := self._question()) != self._asked:
+        """Colour the faces that count, where what is filled in says something else than before.
+
+        A picture in another unit than the one that is filled in is taken away: its lengths are those of the old one.
+        """
+        while self._is_current() and self._region and (asked := self._question()) != self._asked:
             self._asked = asked
             found = await aside.io_bound(_chooser.ask, asked)
-            if self._picture.is_deleted or found is None:
+            if self._picture.is_deleted or found is None or not self._is_current():
                 return
             self._counted.text = found.said
             script = f"mark('{self._frame.html_id}', {json.dumps(found.marked)})"
             self._frame.client.run_javascript(script)
             self._sliders(found)
+
+    def _is_current(self) -> bool:
+        """Whether a picture is shown, in the unit that is filled in."""
+        if self._frame is not None and self._unit() != self._in_unit:
+            self._clear()
+            self._said.text = f"the picture was in {self._in_unit}: show it again"
+        return self._frame is not None
 
     def _sliders(self, found: Found) -> None:
         """Sliders of a box about the surface, once its size is known."""

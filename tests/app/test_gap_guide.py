@@ -9,10 +9,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from nicegui import Client
+from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
+from nicegui.events import GenericEventArguments, handle_event
+from nicegui.page import page
 
 from geocontact.analyses.frame.rerun import differing, results_of
-from geocontact.app.gap_columns import CHANNELS
+from geocontact.analyses.gap.init.options import QUESTIONS
+from geocontact.app.gap_columns import CHANNELS, ColumnTable
 from geocontact.app.gap_files import answer_questions, columns_of, write_trials
+from geocontact.app.gap_questions import QuestionTable
 from geocontact.systems.elbow import ELBOW
 from geocontact.systems.knee import KNEE
 from tests.app.conftest import Window
@@ -64,6 +71,66 @@ def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
         "there is no such folder" in columns_of([tmp_path / "gone.csv"])[1][0] or columns_of([tmp_path / "gone.csv"])[1]
     )
     assert answer_questions(tmp_path, {"evaluation": [], "numbers": {}, "noise": {}})  # no case there
+
+
+def labelled(client: Client) -> dict[str, Element]:
+    """Fields of a page without a browser, by their labels."""
+    return {str(label): one for one in client.elements.values() if (label := one.props.get("aria-label"))}
+
+
+def change(client: Client, label: str, value: object) -> None:
+    """Fill a field in, as a browser sends it."""
+    one = labelled(client)[label]
+    for listener in one._event_listeners.values():
+        if listener.type == "change" and listener.handler is not None:
+            handle_event(listener.handler, GenericEventArguments(sender=one, client=client, args=value))
+
+
+def test_a_unit_is_offered_where_the_file_states_none_that_is_known(tmp_path: Path) -> None:
+    """A column in "degrees" is written in the unit that is chosen; one that is chosen for "" is not taken for "deg"."""
+    client = Client(page(""), request=None)
+    with client.content:
+        table = ColumnTable([("knee", "deg"), ("speed", ""), ("hip", "degrees")], "")
+    assert list(labelled(client)) == ["knee is", "speed is", "unit of speed", "hip is", "unit of hip"]
+    for label, value in {"knee is": "input", "hip is": "input", "speed is": "output", "unit of hip": "deg"}.items():
+        change(client, label, value)
+    assert "deg/s" in labelled(client)["unit of speed"].props["innerHTML"]
+    change(client, "unit of speed", "deg/s")
+    assert table.rows() == [
+        {"column": "knee", "channel": "knee", "unit": "deg", "stated": "deg"},
+        {"column": "speed", "channel": "speed", "unit": "deg/s", "stated": ""},
+        {"column": "hip", "channel": "hip", "unit": "deg", "stated": "degrees"},
+    ]
+    files = [tmp_path / f"t{k}.csv" for k in (1, 2)]
+    for file, hip in zip(files, (" [degrees]", ""), strict=True):
+        file.write_text(f"time [s],knee [deg],speed,hip{hip}\n0,1,2,3\n1,1,2,3\n")
+    (tmp_path / "out").mkdir()
+    assert write_trials(files[:1], table.rows(), tmp_path / "out") == []
+    head = (tmp_path / "out" / "t1.csv").read_text("utf-8").partition("\n")[0]
+    assert head == "time [s],knee [deg],speed [deg/s],hip [deg]"
+    assert "t2.csv: column hip has no unit" in write_trials(files, table.rows(), tmp_path / "out")[0]
+
+
+def test_questions_that_no_field_answers_are_shown() -> None:
+    number = {"start": 50.0, "lower": "?", "upper": "?", "unit": ""}
+    settings = {"calibration": ["t1"], "evaluation": ["t2"], "parameters": {"k": number}, "noise": {"M": 0.1}}
+    client = Client(page(""), request=None)
+    with client.content:
+        table = QuestionTable({**settings, QUESTIONS: ["are M the outputs?"]}, ["M"])
+    words = [one.text for one in client.elements.values() if isinstance(one, TextElement)]
+    assert words[words.index("Open, and kept in case.toml as comments:") + 1] == "are M the outputs?"
+    change(client, "lower of k", "10")
+    change(client, "upper of k", "200")
+    change(client, "unit of k", "N m/rad")
+    assert table.answers() == {
+        "evaluation": ["t2"],
+        "numbers": {"k": {"start": 50.0, "lower": 10.0, "upper": 200.0, "unit": "N m/rad"}},
+        "noise": {"M": 0.1},
+    }
+    none = Client(page(""), request=None)
+    with none.content:
+        QuestionTable({**settings, QUESTIONS: []}, ["M"])
+    assert not any("kept in" in one.text for one in none.elements.values() if isinstance(one, TextElement))
 
 
 def finished(tab: Page, count: int) -> str:

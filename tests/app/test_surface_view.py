@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import asyncio
 import io
 import struct
 from base64 import b64decode
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from nicegui import Client
+from nicegui.elements.mixins.text_element import TextElement
+from nicegui.page import page
 
-from geocontact.app.faces import Chooser
-from geocontact.app.fields import fields_of
+from geocontact.app import surface_view
+from geocontact.app.faces import Chooser, Found
+from geocontact.app.fields import Form, fields_of
 from geocontact.app.landmark_uses import _USES
 from geocontact.app.region_box import NAMES, STEPS, Box
+from geocontact.app.surface_view import SurfaceView
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import Window
 from tests.app.test_window import drop, until
@@ -118,6 +125,57 @@ def test_uses_of_landmarks_are_options_that_speak_of_them() -> None:
             assert "landmark" in said.lower() or "The same for" in said, use
 
 
+def test_a_picture_in_another_unit_is_taken_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the look after the unit was changed, and where it is changed while the page or an answer is awaited."""
+    form = Form("area", {"fixed": str(INSERT), "unit": "mm"})
+    named = {each.name: each for each in form.fields}
+    questions: list[dict[str, Any]] = []
+    changes = {"page": "", "answer": ""}
+
+    def write(_path: Path, _unit: str, _out: Path) -> str:
+        form.values["unit"] = changes["page"] or form.values["unit"]
+        return ""
+
+    def answer(asked: dict[str, Any]) -> Found:
+        questions.append(asked)
+        form.values["unit"] = changes["answer"] or form.values["unit"]
+        return Found("12 faces", {"faces": ""}, [[0.0, 1.0]] * 6)
+
+    async def at_once(called: Callable[..., Any], *words: Any) -> Any:
+        return called(*words)
+
+    monkeypatch.setattr("geocontact.app.elements.below_home", str)  # no request
+    monkeypatch.setattr(surface_view, "write_page", write)
+    monkeypatch.setattr(surface_view._chooser, "ask", answer)
+    monkeypatch.setattr(surface_view.aside, "io_bound", at_once)
+    client = Client(page(""), request=None)
+    monkeypatch.setattr(client, "run_javascript", lambda script: script)
+
+    def pictures() -> list[str]:
+        return [one.tag for one in client.elements.values() if one.tag in ("iframe", "input")]
+
+    def words() -> str:
+        return " ".join(one.text for one in client.elements.values() if isinstance(one, TextElement))
+
+    with client.content:
+        view = SurfaceView(form, named["fixed"], [named["unit"]], INSERT, tmp_path, str, "up")
+        asyncio.run(view.show())
+        assert pictures() == ["iframe", *["input"] * 12] and "x [mm]" in words()
+        asyncio.run(view.colour())
+        assert len(pictures()) == 13 and len(questions) == 1
+        form.values["unit"] = "cm"
+        asyncio.run(view.colour())
+        assert pictures() == [] and "the picture was in mm: show it again" in words() and len(questions) == 1
+        asyncio.run(view.show())
+        assert len(pictures()) == 13 and "x [cm]" in words() and "[mm]" not in words() and "again" not in words()
+        changes["page"] = "m"
+        asyncio.run(view.show())
+        assert pictures() == [] and "the picture was in cm" in words() and len(questions) == 2
+        changes["page"], changes["answer"] = "", "in"
+        asyncio.run(view.show())
+        assert pictures() == [] and "the picture was in m:" in words() and questions[-1]["unit"] == "m"
+
+
 def shown(tab: Page) -> FrameLocator:
     """The picture of the insert in the field `fixed` of `area`, from above."""
     drop(tab, "fixed", INSERT)
@@ -183,6 +241,9 @@ def test_faces_of_the_region_are_coloured_at_once(window: Window) -> None:
     slider.fill("700")
     until(tab, "document.querySelector('[name=region]').value === 'ny>0.4'", 20.0)
     counted(tab, f"{int((normal[:, 1] > 0.4).sum())} of {total}")
+    tab.locator('[name="unit"]').select_option("cm")
+    tab.get_by_text("the picture was in mm: show it again").wait_for(timeout=20_000)
+    assert tab.locator(".picture iframe").count() == 0
     tab.close()
 
 

@@ -14,6 +14,14 @@ from geocontact.io.text.units import ANGLE, DIMENSIONS, LENGTH, si_unit
 
 _NUMBER_AND_UNIT = re.compile(r"(?P<number>[-+0-9.eE]+?)\s*(?P<unit>[a-zA-Z][a-zA-Z/^0-9]*)")
 
+UNITS = tuple(unit for units in DIMENSIONS.values() for unit in units)
+"""Units that can be chosen for a column of a recording."""
+
+
+def is_known(unit: str) -> bool:
+    """Whether a column in this unit can be read as it is."""
+    return si_unit(unit) is not None
+
 
 def named_file(text: str) -> Path | None:
     """The file of that name, None when the text is something else (an expression, a list of numbers).

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.frame.quantities import UNITS, is_known
 from geocontact.analyses.gap.chosen_columns import ChosenColumn, recorded_columns, write_chosen
-from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case
+from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case, begun_settings
+from geocontact.analyses.gap.init.options import QUESTIONS
+from geocontact.io.cases.trial_table import read_trial
 
 RADIUS = 0.037
 
@@ -79,7 +82,7 @@ def test_answers_make_the_case_that_a_diagnosis_reads(tmp_path: Path) -> None:
     assert found["system"] == "knee" and found["noise"] == {"force_medial": 2.0}
     assert found["parameters"]["R"] == {"start": RADIUS, "fixed": True, "unit": "m"}
     assert found["parameters"]["E_star"] == {"start": 5e6, "lower": 1e6, "upper": 5e7, "unit": "Pa"}
-    assert "?" not in (case / "case.toml").read_text("utf-8")
+    assert "?" not in found["parameters"]["E_star"].values()
     read = gc.read_gap_case(case)
     force = 4.0 / 3.0 * 6.8e6 * (read.evaluation[0].column("area_medial") / np.pi) ** 1.5 / RADIUS
     assert read.evaluation[0].column("force_medial") == pytest.approx(force, rel=1e-9)
@@ -87,6 +90,94 @@ def test_answers_make_the_case_that_a_diagnosis_reads(tmp_path: Path) -> None:
     answer_case(case, ["t4"], numbers, {})  # a second answer takes the place of the first
     again = tomllib.loads((case / "case.toml").read_text("utf-8"))
     assert again["calibration"] == ["t1", "t2", "t3"] and "noise" not in again
+
+
+def spring_case(folder: Path) -> Path:
+    """A begun case of a function that asks for a number: it leaves open which columns are outputs, and their units."""
+    data, time = folder / "data", 0.02 * np.arange(60)
+    data.mkdir()
+    for k in range(1, 5):
+        angle = 0.2 * np.sin((2 + k) * time)
+        rows = np.column_stack([time, angle, 50.0 * angle])
+        np.savetxt(data / f"t{k}.csv", rows, delimiter=",", header="time [s],x [rad],M [N m]", comments="")
+    (folder / "spring.py").write_text('def run(time, inputs, numbers):\n    return numbers["k"] * inputs[0]\n')
+    gc.init_gap_case(simulator=str(folder / "spring.py"), data=data).write(folder / "case")
+    return folder / "case"
+
+
+SPRING = {"k": AnsweredNumber(50.0, 10.0, 200.0, "N m/rad")}
+
+
+def test_questions_without_an_answer_stay(tmp_path: Path) -> None:
+    """Those of outputs and units are shown and kept, those of numbers and noise are answered."""
+    case = spring_case(tmp_path)
+    questions = begun_settings(case)[QUESTIONS]
+    assert [each.partition("?")[0] for each in questions] == [
+        "are M the outputs",
+        "does run take time in s, inputs[0] = x in rad, and give M in N m",
+    ]
+    for _ in range(2):  # a second answer changes nothing
+        answer_case(case, ["t4"], SPRING, {"M": 0.1})
+        text = (case / "case.toml").read_text("utf-8")
+        head, *comments = [line for line in text.splitlines() if line.startswith("#")]
+        assert head.startswith("# Open questions") and text.startswith(head)
+        assert [line.partition(". ")[2] for line in comments] == questions == begun_settings(case)[QUESTIONS]
+    for line in comments:  # deleted by hand
+        text = text.replace(f"{line}\n", "")
+    (case / "case.toml").write_text(text)
+    answer_case(case, ["t4"], SPRING, {})
+    assert "#" not in (case / "case.toml").read_text("utf-8") and begun_settings(case)[QUESTIONS] == []
+
+
+def test_what_was_written_by_hand_stays(tmp_path: Path) -> None:
+    """Sections and keys of others; what cannot be kept line by line, and numbers nobody answers, are refused."""
+    case = spring_case(tmp_path)
+    file = case / "case.toml"
+    by_hand = '[constants] # SI\nm = 2.5\n# 1. weighed\n\n[trial.t2]\nlevel = 0.5\ncondition = "[a]"\n\n'
+    begun = file.read_text("utf-8")
+    for place in ("[noise]", "[parameters.k]"):
+        file.write_text(begun.replace(place, by_hand + place))
+        answer_case(case, ["t4"], SPRING, {"M": 0.1})
+        assert file.read_text("utf-8").count("# 1. weighed") == 1
+        found = tomllib.loads(file.read_text("utf-8"))
+        assert found["constants"] == {"m": 2.5} and found["trial"] == {"t2": {"level": 0.5, "condition": "[a]"}}
+        assert found["noise"] == {"M": 0.1} and list(found["parameters"]) == ["k"] and "# SI" in file.read_text("utf-8")
+    file.write_text(begun)
+    answer_case(case, ["t4"], SPRING, {"M": 0.1})
+    done = file.read_text("utf-8")
+    for text, words in (
+        (f"{done}\n[parameters.c]\nstart = 1.0\nfixed = true\n", "parameters.c.*not among the numbers"),
+        (f"noise.M = 0.2\n{done.replace('[noise]', '').replace('M = 0.1', '')}", "line by line"),
+        (done.replace('evaluation = ["t4"]', 'evaluation = [\n  "t4",\n]'), "line by line"),
+        (f"{done}\n[open", "is not TOML"),
+    ):
+        file.write_text(text)
+        with pytest.raises(gc.InputError, match=words):
+            answer_case(case, ["t4"], SPRING, {})
+        assert file.read_text("utf-8") == text
+
+
+def test_a_unit_that_is_asked_for_is_not_left_empty(tmp_path: Path) -> None:
+    case = spring_case(tmp_path)
+    before = (case / "case.toml").read_text("utf-8")
+    with pytest.raises(gc.InputError, match=r"\[parameters.k\].*unit is missing"):
+        answer_case(case, ["t4"], {"k": AnsweredNumber(50.0, None, None, " ")}, {})
+    assert (case / "case.toml").read_text("utf-8") == before
+    answer_case(case, ["t4"], {"k": AnsweredNumber(50.0, None, None, "-")}, {})
+
+
+def test_any_error_leaves_the_case_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = spring_case(tmp_path)
+    before = (case / "case.toml").read_bytes()
+
+    def ended(*_: object, **__: object) -> None:
+        assert (case / "case.toml").read_bytes() != before
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("geocontact.analyses.gap.init.answers.read_gap_case", ended)
+    with pytest.raises(KeyboardInterrupt):
+        answer_case(case, ["t4"], SPRING, {})
+    assert (case / "case.toml").read_bytes() == before
 
 
 def test_columns_keep_their_numbers_and_units_are_not_guessed(tmp_path: Path) -> None:
@@ -115,6 +206,62 @@ def test_columns_keep_their_numbers_and_units_are_not_guessed(tmp_path: Path) ->
     percent.write_text("time [%],force [N]\n0,1\n50,2\n100,3\n")
     with pytest.raises(gc.InputError, match="per cent"):
         recorded_columns(percent)
+
+
+def trial_of(folder: Path, head: str, chosen: ChosenColumn, name: str = "t.csv") -> str:
+    """Header of the trial that is written from a recording with this head."""
+    file = folder / name
+    rows = ("0 10", "0.5 20", "1 30")
+    file.write_text("\n".join([head, *(row if name.endswith("o") else row.replace(" ", ",") for row in rows)]) + "\n")
+    write_chosen(file, [chosen], folder / "out.csv")
+    return (folder / "out.csv").read_text("utf-8").partition("\n")[0]
+
+
+def test_a_unit_that_one_file_states_is_not_taken_for_another_that_states_none(tmp_path: Path) -> None:
+    """`stated` is what the first file says: deg, nothing, or a word that is no known unit."""
+    deg, none, word = (ChosenColumn("knee", "knee", "deg", stated) for stated in ("deg", "", "degrees"))
+    assert trial_of(tmp_path, "time [s],knee [deg]", deg) == "time [s],knee [deg]"
+    assert trial_of(tmp_path, "time [s],knee [rad]", deg) == "time [s],knee [rad]"  # each states its own: 10 rad stay
+    assert trial_of(tmp_path, "time [s],knee", none) == "time [s],knee [deg]"
+    assert trial_of(tmp_path, "time [s],knee [°]", none) == "time [s],knee [°]"
+    assert trial_of(tmp_path, "time [s],knee [degrees]", word) == "time [s],knee [deg]"
+    for head, chosen, words in (
+        ("time [s],knee", deg, "column knee has no unit; in the first file it is in 'deg'"),
+        ("time [s],knee", word, "column knee has no unit; in the first file it is in 'degrees'"),
+        ("time [s],knee [degrees]", none, "column knee is in 'degrees'; in the first file it has none"),
+        ("time [s],knee [radians]", word, "column knee is in 'radians'; in the first file it is in 'degrees'"),
+        ("time [s],knee [rad]", none, "column knee is in rad, not in deg"),
+        ("time [s],knee [rad]", word, "column knee is in rad, not in deg"),
+        ("time [s],knee [N]", deg, "column knee is in N, not in deg"),
+    ):
+        with pytest.raises(gc.InputError, match=words):
+            trial_of(tmp_path, head, chosen)
+
+
+@pytest.mark.parametrize(("flag", "said", "other"), [("yes", "deg", "rad"), ("no", "rad", "deg")])
+def test_angles_are_in_the_unit_of_the_header(tmp_path: Path, flag: str, said: str, other: str) -> None:
+    head = f"name\nversion=1\nnRows=3\nnColumns=2\ninDegrees={flag}\nendheader\ntime knee"
+    for rate in ("", "/s", "/s^2"):
+        for unit in (f"{said}{rate}", "N", "rpm"):
+            assert trial_of(tmp_path, head, ChosenColumn("knee", "x", unit), "t.sto") == f"time [s],x [{unit}]"
+        wrong = ChosenColumn("knee", "x", f"{other}{rate}")
+        with pytest.raises(gc.InputError, match=f"line 5: 'inDegrees={flag}' says that angles are in {said}") as caught:
+            trial_of(tmp_path, head, wrong, "t.sto")
+        assert f"choose {said}{rate}, or" in str(caught.value)
+    silent = head.replace(f"inDegrees={flag}\n", "")
+    assert trial_of(tmp_path, silent, ChosenColumn("knee", "x", other), "t.sto") == f"time [s],x [{other}]"
+
+
+def test_every_unit_that_is_offered_can_be_read(tmp_path: Path) -> None:
+    """Those of angular speed, length in cm and stiffness among them; 10 of each in the trial."""
+    assert {"cm", "rad/s", "deg/s", "N m/rad", "m/s^2"} <= set(UNITS) and not is_known("degrees") and not is_known("")
+    for unit in UNITS:
+        trial_of(tmp_path, "time [s],a", ChosenColumn("a", "a", unit))
+        column = read_trial(tmp_path / "out.csv")
+        assert column.signals.column("a")[0] == pytest.approx(10.0 * column.column("a").factor), unit
+    given = np.radians(10.0)
+    trial_of(tmp_path, "time [s],a", ChosenColumn("a", "a", "deg/s"))
+    assert read_trial(tmp_path / "out.csv").signals.column("a")[0] == pytest.approx(given)
 
 
 def test_a_shipped_model_has_channels_of_its_own_and_asks_for_its_numbers(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Answers to what a begun case asks, written into its case.toml."""
+"""Answers to what a begun case asks, written into its case.toml; what they do not answer stays there."""
 
 from __future__ import annotations
 
@@ -7,17 +7,24 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any
 
+from geocontact.analyses.gap.init.options import QUESTIONS
+from geocontact.analyses.gap.init.settings import ASKED, NOISE_ASKED, NUMBERS_ASKED, OPEN
 from geocontact.data.errors import InputError
-from geocontact.io.cases.case_settings import SETTINGS
+from geocontact.io.cases.case_settings import LARGEST_SETTINGS, SETTINGS
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import toml_key
 from geocontact.io.text.file_preflight import read_text_bytes
+from geocontact.io.text.toml_text import toml_of
 
-_SECTION = re.compile(r"\[(?P<name>[^\]]+)\]")
-_ASKED = re.compile(r"#\s+(\d+\. |.*= \?)|# Open questions")
+_SECTION = re.compile(r"\s*\[\[?\s*\"?(?P<name>[^\].\"]+)")
+_QUESTION = re.compile(r"#\s+\d+\. (?P<words>.+)")
+_ANSWERED = (NUMBERS_ASKED, NOISE_ASKED)
+_TRIALS = ("calibration", "evaluation")
+_WRITTEN = ("noise", "parameters")
 
 
 @dataclass(frozen=True)
@@ -31,8 +38,10 @@ class AnsweredNumber:
 
 
 def begun_settings(folder: Path) -> dict[str, Any]:
-    """What case.toml of a begun case says, with "?" for what is open."""
-    return tomllib.loads(read_text_bytes(folder / SETTINGS).decode("utf-8"))
+    """What case.toml of a begun case says, with "?" for what is open, and by `QUESTIONS` what `answer_case` leaves."""
+    file = folder / SETTINGS
+    lines = read_text_bytes(file).decode("utf-8", "replace").splitlines()
+    return {**toml_of(file, LARGEST_SETTINGS), QUESTIONS: [line.partition(". ")[2] for line in _left(lines)]}
 
 
 def answer_case(
@@ -44,7 +53,8 @@ def answer_case(
 ) -> None:
     """Write held-out trials, numbers and noise into the case that `gap init` began in `folder`.
 
-    The other trials are those to fit to. What stood there stays where the case cannot be read afterwards.
+    The other trials are those to fit to. Other keys, sections and questions of case.toml stay, and the whole file where
+    the case cannot be read afterwards.
 
     Parameters
     ----------
@@ -60,21 +70,55 @@ def answer_case(
     Raises
     ------
     InputError
-        The case cannot be read with these answers.
+        The case cannot be read with these answers, a number has no answer, or one whose bounds are open has no unit.
     """
     file = folder / SETTINGS
-    before = read_text_bytes(file).decode("utf-8")
+    said = toml_of(file, LARGEST_SETTINGS)
+    before = read_text_bytes(file)
     trials = sorted(each.stem for each in (folder / "trials").glob("*.csv"))
     if unknown := [name for name in evaluation if name not in trials]:
         raise InputError(folder, "", f"has no trial {unknown[0]}", f"it has {', '.join(trials)}")
     calibration = [name for name in trials if name not in evaluation]
-    answered = "\n".join(_lines(before, calibration, evaluation, numbers, noise)) + "\n"
-    file.write_text(answered, encoding="utf-8", newline="\n")
+    _check_numbers(file, said.get("parameters", {}), numbers)
+    answered = "\n".join(_lines(before.decode("utf-8-sig"), calibration, evaluation, numbers, noise)) + "\n"
+    _check_kept(file, said, answered, (noise, numbers))
     try:
+        file.write_text(answered, encoding="utf-8", newline="\n")
         read_gap_case(folder, run_programs=simulator_allowed)
-    except InputError:
-        file.write_text(before, encoding="utf-8", newline="\n")
+    except BaseException:
+        file.write_bytes(before)
         raise
+
+
+def _check_numbers(file: Path, said: Mapping[str, Any], numbers: Mapping[str, AnsweredNumber]) -> None:
+    """All numbers of the file are answered, with a unit where nobody declared one."""
+    if lacking := [name for name in said if name not in numbers]:
+        remedy = "give it with the others, or delete it there"
+        raise InputError(file, f"[parameters.{lacking[0]}]", "is not among the numbers that are answered", remedy)
+    for name, each in numbers.items():
+        if not each.unit.strip() and said.get(name, {}).get("lower") == json.loads(OPEN):
+            raise InputError(
+                file, f"[parameters.{name}]", "its unit is missing", 'write it in SI, "-" for a pure number'
+            )
+
+
+def _check_kept(file: Path, said: Mapping[str, Any], text: str, written: tuple[Mapping[str, Any], ...]) -> None:
+    """The new text says what the old one said, but for what is written anew."""
+    try:
+        found: dict[str, Any] = tomllib.loads(text)
+    except ValueError:
+        found = {}
+    anew = (*_TRIALS, *_WRITTEN)
+    kept, before = ({key: value for key, value in all_.items() if key not in anew} for all_ in (found, said))
+    if kept != before or any(set(found.get(key, {})) != set(each) for key, each in zip(_WRITTEN, written, strict=True)):
+        what = "cannot be answered line by line"
+        raise InputError(file, "", what, "write lists on one line, and noise and parameters as [noise], [parameters.k]")
+
+
+def _left(lines: Sequence[str]) -> list[str]:
+    """Questions above the first section that neither numbers nor noise answer."""
+    head = takewhile(lambda line: not _SECTION.match(line), lines)
+    return [line for line in head if (found := _QUESTION.match(line)) and not found["words"].startswith(_ANSWERED)]
 
 
 def _lines(
@@ -84,17 +128,21 @@ def _lines(
     numbers: Mapping[str, AnsweredNumber],
     noise: Mapping[str, float],
 ) -> Iterator[str]:
-    """Keys of the head without its questions; noise and numbers anew."""
-    head = []
-    for line in text.splitlines():
-        if _SECTION.match(line):
-            break
+    """Head and sections without what is answered; trials, noise and numbers anew."""
+    lines = text.splitlines()
+    begins = [k for k, line in enumerate(lines) if _SECTION.match(line)] + [len(lines)]
+    if asked := _left(lines):
+        yield from (ASKED, *asked)
+    for line in lines[: begins[0]]:
         key = line.partition("=")[0].strip()
-        if key not in ("calibration", "evaluation") and not _ASKED.match(line) and line.strip():
-            head.append(line)
-    yield from head
+        if line.strip() and key not in _TRIALS and line.strip() != ASKED and not _QUESTION.match(line):
+            yield line
     yield f"calibration = {json.dumps(list(calibration), ensure_ascii=False)}"
     yield f"evaluation = {json.dumps(list(evaluation), ensure_ascii=False)}"
+    for begin, end in pairwise(begins):
+        section = _SECTION.match(lines[begin])
+        if section is not None and section["name"].strip() not in _WRITTEN:
+            yield "\n" + "\n".join(lines[begin:end]).strip()
     if noise:
         yield "\n[noise]"
         yield from (f"{toml_key(name)} = {value!r}" for name, value in noise.items())

@@ -17,6 +17,9 @@ NamedStarts = Annotated[
 ]
 Recordings = Annotated[Path, Missing("there is no such folder", "name the folder that holds a .csv file per trial")]
 
+QUESTIONS = "open questions"
+"""Key of the questions of a begun case among its settings; none of case.toml has it without quotes."""
+
 
 @dataclass(frozen=True)
 class InitOptions(Options):

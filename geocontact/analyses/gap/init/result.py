@@ -33,7 +33,7 @@ from geocontact.analyses.frame.result import REPORT, Part, Result
 from geocontact.analyses.gap.init.adapter import function_adapter
 from geocontact.analyses.gap.init.first_run import FirstRun, errors_of, first_run, unit_ratio
 from geocontact.analyses.gap.init.options import InitOptions
-from geocontact.analyses.gap.init.settings import settings_text
+from geocontact.analyses.gap.init.settings import NOISE_ASKED, NUMBERS_ASKED, settings_text
 from geocontact.analyses.gap.init.show import init_page
 from geocontact.analyses.gap.init.simulator import FoundSimulator, found_simulator
 from geocontact.chain.system import System
@@ -197,8 +197,10 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     asked = []
     declared = {p.name for p in found.declared}
     if names := [p.name for p in first.system.parameters if p.name not in declared]:
-        asked.append(f"start, lower, upper and unit of {', '.join(names)}; fixed = true for what is known exactly")
-    asked.append(f"noise of {', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated")
+        asked.append(f"{NUMBERS_ASKED}{', '.join(names)}; fixed = true for what is known exactly")
+    asked.append(
+        f"{NOISE_ASKED}{', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated"
+    )
     if first.silent:
         asked.append(f"{', '.join(first.silent)} changed no output where it was moved: is it the right column?")
     trials = (*case.calibration, *case.evaluation)

@@ -14,6 +14,9 @@ from geocontact.io.cases.gap_case_writer import toml_key
 
 OPEN = '"?"'
 """Value of what only the user knows; not a number, so that a diagnosis refuses it."""
+ASKED = "# Open questions; delete each line when it is answered:"
+NUMBERS_ASKED, NOISE_ASKED = "start, lower, upper and unit of ", "noise of "
+"""Beginnings of the questions that numbers and noise in case.toml answer."""
 
 
 def settings_text(case: GapCase, found: FoundSimulator, run: FirstRun, questions: Sequence[str]) -> str:
@@ -23,7 +26,7 @@ def settings_text(case: GapCase, found: FoundSimulator, run: FirstRun, questions
 
 def _lines(case: GapCase, found: FoundSimulator, run: FirstRun, questions: Sequence[str]) -> Iterator[str]:
     if questions:
-        yield "# Open questions; delete each line when it is answered:"
+        yield ASKED
         yield from (f"#   {k}. {question}" for k, question in enumerate(questions, 1))
     yield "format = 1"
     yield f"system = {_word(found.system)}"
