@@ -36,7 +36,7 @@ def pair() -> RigidPair:
     poses = RigidTransform.from_components(SHIFT * 1e-3, Rotation.from_rotvec(TURN))
     fixed, moving = ((vertices * 1e-3, faces) for vertices, faces in (FLOOR, BALL))
     upward = np.array([np.ptp(FLOOR[0][face][:, 1]) == 0.0 for face in FLOOR[1]])
-    return RigidPair(TIME, poses, fixed, moving, touching_fixed=upward, stiffness=STIFFNESS * 1e9, notes=("a -- note",))
+    return RigidPair(TIME, poses, fixed, moving, touching=upward, stiffness=STIFFNESS * 1e9, notes=("a -- note",))
 
 
 def assembled() -> bytes:

@@ -14,7 +14,7 @@ from jaxtyping import Bool
 
 from geocontact.analyses.area.literature import Flexions, flexions_of
 from geocontact.analyses.area.options import LITERATURE, AreaOptions
-from geocontact.analyses.area.wear import wear_factor_of
+from geocontact.analyses.area.wear import refuse_other_cycles, wear_factor_of
 from geocontact.analyses.frame import places
 from geocontact.analyses.frame.bodies import (
     check_surfaces,
@@ -370,6 +370,7 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     cutting = cutting_of(o.events, o.cycle_side, o.part)
     stems = tuple(path.stem for path in _expanded(o.motion or ()))
     wear = wear_factor_of(o)
+    refuse_other_cycles(wear, cutting, motions, stems)
     bodies = Bodies(
         moving, fixed, settings, motions, reference, error, flexions=flexions, cutting=cutting, stems=stems, wear=wear
     )

@@ -138,7 +138,7 @@ class AreaOptions(Options):
         Faces of FIXED that count: "ny>0.25" in x y z nx ny nz (mesh unit), a file of face numbers, or picked landmarks:
         polygon:FILE.csv, or sphere:FILE.csv:NAME:12mm.
     region_moving
-        The same for MOVING.
+        The same for MOVING's area; all of MOVING presses.
 
     How area is counted
     -------------------
@@ -242,7 +242,7 @@ class AreaOptions(Options):
         Instead of `wear_factor`: a table cross_shear [-], wear_factor [mm^3/(N m)] of factors by cross-shear ratio
         (Kang et al. 2008), 0 to 0.5; linear between rows.
     wear_cycles
-        How often the motion repeats; 1000000 by default.
+        How often the motion, which is exactly one cycle, repeats; 1000000 by default.
 
     Work
     ----

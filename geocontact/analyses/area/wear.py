@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.area.options import AreaOptions
 from geocontact.analyses.frame.collector import add_input, note, reserve, say
+from geocontact.analyses.frame.words import counted
+from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM, MM2
-from geocontact.data.plausible import BEARING
+from geocontact.data.motion import Motion
+from geocontact.data.plausible import BEARING, WEAR
 from geocontact.geometry.surface import Surface
 from geocontact.io.text.side_table import read_side_table
 from geocontact.loads.pressure_evolution import PressureEvolution
@@ -42,10 +49,54 @@ def wear_factor_of(o: AreaOptions) -> WearFactor | None:
     ratio, factor = (table[name].to_numpy(float) for name in COLUMNS)
     if len(ratio) < 2:
         raise InputError(o.cross_shear, "", "one row is one factor for all ratios", "give two rows, or `wear_factor`")
+    _check_factors(o.cross_shear, factor)
     try:
         return WearFactor(ratio, factor)
     except ValueError as error:
         raise InputError(o.cross_shear, "", str(error), "give ratios from 0 to 0.5, sorted, each once") from error
+
+
+def _check_factors(table: Path, factor: Float[np.ndarray, " n"]) -> None:
+    """The same refusal and doubt as for one factor."""
+    for row, value in enumerate(factor.tolist(), start=1):
+        if (refusal := WEAR.refusal(value)) is not None:
+            raise InputError(table, f"row {row}", *refusal)
+    doubts = [doubt for value in factor.tolist() if (doubt := WEAR.doubt(value)) is not None]
+    if doubts:
+        reserve(f"{table}: {doubts[0]}")
+
+
+WHOLE = 0.02
+"""Share of the frames that may lie outside of the one cycle."""
+
+
+def refuse_other_cycles(
+    wear: WearFactor | None, cutting: Cutting | None, motions: Sequence[tuple[str, Motion]], stems: Sequence[str]
+) -> None:
+    """InputError where there is wear, which is that of all frames repeated, and by its events a motion is not one
+    whole cycle.
+    """
+    if wear is None or cutting is None:
+        return
+    for stem, (_, motion) in zip(stems, motions, strict=True):
+        if motion.time_unit != "s":
+            continue
+        start, end = float(motion.time[0]), float(motion.time[-1])
+        near = WHOLE * (end - start)
+        found = [
+            cycle
+            for cycle in replace(cutting, part=None).cycles_of(stem)
+            if start - near <= cycle.start and cycle.end <= end + near
+        ]
+        if len(found) == 1 and found[0].start <= start + near and found[0].end >= end - near:
+            continue
+        what = f"{stem} holds {counted(len(found), 'cycle')}, and wear repeats all of its frames as one"
+        if len(found) == 1:
+            what = (
+                f"the cycle of {stem} is {found[0].start:g} to {found[0].end:g} s, and wear repeats all of its frames, "
+                f"{start:g} to {end:g} s"
+            )
+        raise InputError(cutting.file, "", what, "cut the motion to one cycle, or leave out `events` or wear")
 
 
 def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e: PressureEvolution) -> LayerWear:
@@ -58,7 +109,7 @@ def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e
     _doubt_motion(found, label)
     _doubt_depth(found, e, label)
     _doubt_ratios(found, factor, label)
-    place = found.pieces.point[found.deepest] * MM
+    place = found.pieces.point[found.deepest] * MM if found.volume > 0.0 else ()
     note(
         f"wear {name}".strip(),
         {
@@ -66,7 +117,7 @@ def worn_over(o: AreaOptions, factor: WearFactor, wearing: Wearing, name: str, e
             "volume_mm3": found.volume * MM3,
             "volume_mm3_per_million_cycles": found.volume * MM3 * 1e6 / found.cycles,
             "deepest_mm": float(found.depth.max(initial=0.0)) * MM,
-            "deepest_at_mm": [round(float(x), 4) for x in place],
+            "deepest_at_mm": [round(float(x), 4) for x in place] or None,
             "force_times_path_J_per_cycle": found.total_work,
             "cross_shear_ratio": mean_ratio(found),
             "way_back_not_counted": _share(found.closing, found.total_work),
@@ -155,10 +206,13 @@ def mean_ratio(found: LayerWear) -> float:
 def wear_sentence(found: LayerWear) -> str:
     """How much, and where it is deepest."""
     said = f"wear after {found.cycles:g} cycles: {found.volume * MM3:.4g} mm^3"
-    if not found.volume > 0.0:
-        return said
+    return f"{said}, deepest {_deepest(found)}" if found.volume > 0.0 else said
+
+
+def _deepest(found: LayerWear) -> str:
+    """Depth and place of the piece that loses the most."""
     x, y, z = found.pieces.point[found.deepest] * MM
-    return f"{said}, deepest {found.depth[found.deepest] * MM:.3g} mm at x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
+    return f"{found.depth[found.deepest] * MM:.3g} mm at x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
 
 
 def wear_table(found: LayerWear, fixed: Surface) -> pd.DataFrame:
@@ -200,10 +254,8 @@ def wear_map(found: LayerWear, faces: int, frames: int) -> FaceMap:
 
 def wear_facts(found: LayerWear) -> list[tuple[str, str]]:
     """Volume and depth."""
-    after = f"after {found.cycles:g} cycles"
-    x, y, z = found.pieces.point[found.deepest] * MM
-    deepest = f"{float(found.depth.max(initial=0.0)) * MM:.3g} mm at x {x:.1f}, y {y:.1f}, z {z:.1f} mm"
-    return [(f"Volume worn {after}", f"{found.volume * MM3:.4g} mm³"), ("Deepest wear", deepest)]
+    volume = (f"Volume worn after {found.cycles:g} cycles", f"{found.volume * MM3:.4g} mm³")
+    return [volume, ("Deepest wear", _deepest(found))] if found.volume > 0.0 else [volume]
 
 
 def wear_words(found: LayerWear) -> Words:
@@ -219,5 +271,8 @@ def wear_words(found: LayerWear) -> Words:
         "Pressures are those of the surface as it is given in each cycle: it is not updated as it wears, and creep is "
         "not included. Poses are prescribed, so that an error of the pressure is one of the wear in the same ratio."
     )
-    frames = f"Every second frame alone changes the depths by {found.coarser:.2%} on average."
+    frames = (
+        f"Every second frame alone changes the depths by {found.coarser:.2%} on average. Colours are means over faces; "
+        "the deepest wear is that of a piece of one."
+    )
     return Words("Wear", [law, limits, frames])

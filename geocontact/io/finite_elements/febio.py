@@ -8,6 +8,7 @@ elastic foundation (Fregly et al. 2003, J Biomech 36:1659) where the penalty is 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from xml.etree.ElementTree import Comment, Element, ElementTree, SubElement, indent
@@ -36,7 +37,7 @@ def write_febio(file: Path, pair: RigidPair, program: str) -> None:
     """Write a model that FEBio 4 opens, of both bodies, the motion, and the contact where its stiffness is known."""
     root = Element("febio_spec", version="4.0")
     for line in (f"written by {program}", UNITS, *pair.notes):
-        root.append(Comment(f" {line.replace('--', '-')} "))
+        root.append(Comment(f" {re.sub('-{2,}', '-', line)} "))
     SubElement(root, "Module", type="solid")
     _control(SubElement(root, "Control"), pair)
     constants = SubElement(SubElement(root, "Globals"), "Constants")

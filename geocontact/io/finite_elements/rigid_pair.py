@@ -31,8 +31,8 @@ class RigidPair:
         `X_FM` of each frame [m].
     fixed, moving
         Vertices in the body's own frame [m] and faces, counter-clockwise seen from outside.
-    touching_fixed, touching_moving
-        Faces that may touch; all of them where None.
+    touching
+        Faces of FIXED that may touch; all of them where None. All of MOVING's may.
     stiffness
         Pressure by depth of the layer [Pa/m]; None where no contact law is known.
     young, poisson
@@ -45,8 +45,7 @@ class RigidPair:
     poses: RigidTransform
     fixed: tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"]]
     moving: tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "j 3"]]
-    touching_fixed: Bool[np.ndarray, " m"] | None = None
-    touching_moving: Bool[np.ndarray, " j"] | None = None
+    touching: Bool[np.ndarray, " m"] | None = None
     stiffness: float | None = None
     young: float | None = None
     poisson: float | None = None
@@ -102,9 +101,9 @@ class RigidPair:
 
     def contact_faces(self) -> tuple[Int[np.ndarray, " a"], Int[np.ndarray, " b"]]:
         """Numbers of the faces of FIXED and MOVING that may touch."""
-        known = ((self.fixed[1], self.touching_fixed), (self.moving[1], self.touching_moving))
-        fixed, moving = (np.arange(len(faces)) if some is None else np.flatnonzero(some) for faces, some in known)
-        return fixed, moving
+        faces, some = self.fixed[1], self.touching
+        fixed = np.arange(len(faces)) if some is None else np.flatnonzero(some)
+        return fixed, np.arange(len(self.moving[1]))
 
 
 def without_jumps(vectors: Float[np.ndarray, "t 3"]) -> Float[np.ndarray, "t 3"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -13,9 +14,11 @@ import trimesh
 import geocontact as gc
 from geocontact.analyses.area.result import AreaResult
 from geocontact.data.errors import InputError
+from meshes.simple_shapes import block, sphere
 from tests import opensim_oracle
 from tests.analyses.area.calls import area, pressed
-from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, call, gait, poses, storage, unpictured
+from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, call, gait, poses, stl, storage, unpictured
+from tests.cli.calls import written as saved
 from tests.elsewhere import Elsewhere
 
 LAYER = {"modulus": gc.MPa(500), "poisson": 0.46, "thickness": gc.mm(8), "piece": gc.mm(1)}
@@ -55,6 +58,8 @@ class Feb:
         first = len(self.nodes["FIXED"])
         faces = {g.get("name"): self._rows(g).astype(int) - 1 for g in self.root.findall("Mesh/Elements")}
         self.faces = {"FIXED": faces["FIXED"], "MOVING": faces["MOVING"] - first}
+        touching = {g.get("name"): self._rows(g).astype(int) - 1 for g in self.root.findall("Mesh/Surface")}
+        self.touching = {"FIXED": touching["FIXED_surface"], "MOVING": touching["MOVING_surface"] - first}
         curves = {c.get("id"): self._rows(c.find("points")) for c in self.root.findall("LoadData/load_controller")}
         self.time = curves["1"][:, 0]
         self.shift, self.turn = (
@@ -142,8 +147,57 @@ def test_contact_law_is_the_layers(knee: tuple[Path, Path, AreaResult]) -> None:
     assert float(slope) == pytest.approx(STIFFNESS, rel=1e-9)
 
 
+def middles_of_pieces(parts: int) -> np.ndarray:
+    """Barycentric coordinates of the middles of parts^2 equal pieces of a triangle."""
+    upright = [(i + 1 / 3, j + 1 / 3) for i in range(parts) for j in range(parts - i)]
+    turned_over = [(i + 2 / 3, j + 2 / 3) for i in range(parts - 1) for j in range(parts - 1 - i)]
+    first, second = np.array(upright + turned_over).T / parts
+    return np.column_stack([first, second, 1.0 - first - second])
+
+
+def triangles_press(feb: Feb, k: int, edge: float | None) -> float:
+    """Penalty times depth times area over the triangles of a .feb [N], depths by trimesh.
+
+    At the middles of pieces with edges of at most `edge` [mm], or at the three points of each triangle where FEBio is.
+    """
+    moving = trimesh.Trimesh(feb.placed(k), feb.faces["MOVING"])
+    assert moving.is_watertight and moving.volume > 0.0
+    low, high = moving.bounds
+    points, areas = [], []
+    for corners in feb.nodes["FIXED"][feb.touching["FIXED"]]:
+        across = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        if across[1] <= 0.0 or (corners.min(axis=0) > high).any() or (corners.max(axis=0) < low).any():
+            continue  # of the underside, or beside
+        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).max()
+        weights = (np.eye(3) * 3 + 1) / 6 if edge is None else middles_of_pieces(int(np.ceil(longest / edge)))
+        points.append(weights @ corners)
+        areas.append(np.full(len(weights), 0.5 * np.linalg.norm(across) / len(weights)))
+    point, area_of = np.vstack(points), np.concatenate(areas)
+    near = ((point >= low) & (point <= high)).all(axis=1)
+    depth = trimesh.proximity.signed_distance(moving, point[near])
+    return float(feb.root.findtext("Contact/contact/penalty")) * float(np.maximum(depth, 0.0) @ area_of[near])
+
+
+def forces_warned_of(result: AreaResult) -> tuple[float, ...]:
+    """Force of the flat triangles, at FEBio's points, and the one computed [N]."""
+    (line,) = (each for each in result.reservations("") if "triangles of the models are flat" in each)
+    assert f"in frame {int(np.argmax(result.force)) + 1} of {len(result.force)} " in line
+    found = re.search(r"press with (\S+) N, and (\S+) N at the three .* is (\S+) N; give finer meshes", line)
+    return tuple(map(float, found.groups()))
+
+
+def test_force_of_the_written_triangles_of_the_knee_is_said(knee: tuple[Path, Path, AreaResult]) -> None:
+    """Smooth facets of the coarse knee lie higher than its triangles: the model has a part of the force."""
+    _, folder, result = knee
+    feb, k = Feb(folder / "contact.feb"), int(np.argmax(result.force))
+    flat, at_points, computed = forces_warned_of(result)
+    assert computed == pytest.approx(result.force[k], rel=1e-3)
+    assert flat == pytest.approx(triangles_press(feb, k, 1.0), rel=2e-3) and flat < 0.5 * computed
+    assert at_points == pytest.approx(triangles_press(feb, k, None), rel=2e-3, abs=1e-3)
+
+
 def test_stiffness_times_the_volume_of_overlap_is_the_force(tmp_path: Path) -> None:
-    """A ball over a plate: volume of the spherical cap of the depth that the model prescribes."""
+    """A ball over a plate: volume of the spherical cap of the depth that the model prescribes, and its triangles."""
     depths = (0.2, 0.4)
     motion = poses(tmp_path, *((0.0, 20.0 - depth, 0.0) for depth in depths))
     result = pressed(SPHERE, PLATE, motion, export=("febio",), threshold=0.0, **LAYER, **QUICK)
@@ -153,6 +207,60 @@ def test_stiffness_times_the_volume_of_overlap_is_the_force(tmp_path: Path) -> N
         depth = top - feb.placed(k)[:, 1].min()
         assert depth == pytest.approx(depths[k], abs=2e-3)
         assert STIFFNESS * np.pi * depth**2 * (20.0 - depth / 3.0) == pytest.approx(force, rel=0.04)
+    flat, at_points, _ = forces_warned_of(result)
+    assert flat == pytest.approx(triangles_press(feb, 1, 1.0), rel=2e-3)
+    assert at_points == pytest.approx(triangles_press(feb, 1, None), rel=2e-3, abs=1e-3)
+
+
+def test_fine_flat_triangles_have_the_force_and_are_not_doubted(tmp_path: Path) -> None:
+    """With flat facets on both sides and triangles small beside the contact nothing is lost."""
+    bent, top = sphere(20.0, 24), block(12.0, 12.0, 12.0, 24)
+    ball = saved(tmp_path / "ball.stl", stl(bent[0][bent[1]]))
+    plate = saved(tmp_path / "plate.stl", stl(top[0][top[1]]))
+    result = pressed(
+        ball, plate, poses(tmp_path, (0, 19.5, 0)), export=("febio",), facets="flat", threshold=0.0, **LAYER, **QUICK
+    )
+    feb = Feb(written(result, tmp_path / "out") / "contact.feb")
+    assert not [line for line in result.reservations("") if "triangles" in line]
+    assert triangles_press(feb, 0, None) == pytest.approx(result.force[0], rel=0.01)
+
+
+@pytest.fixture(scope="module", params=["inwards", "repeated"])
+def odd(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Models of a ball and a plate whose files are wound inwards, or have a face twice and one without area."""
+    folder = tmp_path_factory.mktemp("odd")
+    files = []
+    for name, (vertices, faces) in (("ball", sphere(20.0, 8)), ("pl---ate", block(60.0, 30.0, 12.0, 4))):
+        more = np.vstack([[[*faces[0, :2], faces[0, 1]]], faces, faces[:1]])
+        rows = faces[:, ::-1] if request.param == "inwards" else more
+        files.append(saved(folder / f"{name}.stl", stl(vertices[rows])))
+    motion = poses(folder, (0, 19.7, 0))
+    regions = {"region": "ny>0.5", "region_moving": "y<0"}
+    return written(area(*files, motion, export=("febio", "abaqus"), **regions, **QUICK), folder / "out")
+
+
+def test_faces_are_written_outwards_with_an_area_and_once(odd: Path) -> None:
+    feb = Feb(odd / "contact.feb")
+    for name, volume in (("FIXED", 60.0 * 30.0 * 12.0), ("MOVING", 4.0 / 3.0 * np.pi * 20.0**3)):
+        corners = feb.nodes[name][feb.faces[name]]
+        signed = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
+        assert signed == pytest.approx(volume, rel=0.1)
+        rows = np.sort(feb.faces[name], axis=1)
+        assert (np.diff(rows, axis=1) > 0).all() and len(np.unique(rows, axis=0)) == len(rows)
+    abaqus = (odd / "contact.inp").read_text(encoding="ascii")
+    first = len(feb.nodes["FIXED"])
+    for name, start in (("FIXED", 0), ("MOVING", first)):
+        rows = abaqus.partition(f"*ELEMENT, TYPE=S3, ELSET={name}\n")[2].partition("*")[0].splitlines()
+        theirs = np.array([row.split(",")[1:] for row in rows], int) - 1 - start
+        np.testing.assert_array_equal(theirs, feb.faces[name])
+
+
+def test_regions_hold_for_the_faces_that_are_written(odd: Path) -> None:
+    """The top of FIXED; `region_moving` is of MOVING's area alone, and all of MOVING presses."""
+    feb = Feb(odd / "contact.feb")
+    corners = feb.nodes["FIXED"][feb.touching["FIXED"]]
+    assert len(corners) == 2 * 4 * 2 and (corners[:, :, 1] == feb.nodes["FIXED"][:, 1].max()).all()
+    np.testing.assert_array_equal(feb.touching["MOVING"], feb.faces["MOVING"])
 
 
 def test_two_layers_are_in_series(tmp_path: Path) -> None:

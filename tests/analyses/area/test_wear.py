@@ -130,6 +130,7 @@ def test_cross_shear_of_a_square_has_the_factor_of_one_half(bodies: tuple[Path, 
         ("ratio [-], wear_factor [mm^3/(N m)]\n0, 1e-7\n0.5, 2e-7\n", "no column cross_shear"),
         ("cross_shear [-], wear_factor [mm^3]\n0, 1e-7\n0.5, 2e-7\n", "no column wear_factor"),
         ("cross_shear [-], wear_factor [mm^3/(N m)]\n0, 1e-7\n", "one row is one factor"),
+        ("cross_shear [-], wear_factor [m^2/N]\n0, 1e-16\n0.5, 1e-7\n", r"row 2: 100 mm.* cannot be"),
         ("cross_shear [-], wear_factor [mm^3/(N m)]\n0.4, 1e-7\n0.1, 2e-7\n", "must increase"),
         ("cross_shear [-], wear_factor [mm^3/(N m)]\n0, 1e-7\n0.9, 2e-7\n", "0.5 at most"),
     ],
@@ -164,6 +165,38 @@ def test_wear_needs_pressures(bodies: tuple[Path, Path], tmp_path: Path) -> None
         area(*bodies, poses(tmp_path, (0, 20, 0)), wear_factor=1e-16)
 
 
+def test_factors_of_a_table_are_doubted_as_one_factor_is(bodies: tuple[Path, Path], tmp_path: Path) -> None:
+    table = written(tmp_path / "k.csv", "cross_shear [-], wear_factor [mm^3/(N m)]\n0, 1e-7\n0.5, 1e-3\n")
+    found = slid(bodies, tmp_path, cross_shear=table, frames=5)
+    assert any("k.csv: 0.001 mm^3/(N m) is unusual for a wear factor" in line for line in found.warnings)
+
+
+@pytest.mark.parametrize(
+    ("strikes", "what"),
+    [
+        ((0.0, 2.0, 4.0), "poses holds 2 cycles, and wear repeats all of its frames as one"),
+        ((0.0, 3.0), "the cycle of poses is 0 to 3 s, and wear repeats all of its frames, 0 to 4 s"),
+    ],
+)
+def test_wear_of_a_file_that_is_not_one_cycle_by_its_events_is_refused(
+    bodies: tuple[Path, Path], tmp_path: Path, strikes: tuple[float, ...], what: str
+) -> None:
+    with pytest.raises(InputError, match=what):
+        slid(bodies, tmp_path, frames=5, events=struck(tmp_path, *strikes))
+
+
+def test_wear_of_one_cycle_may_have_its_events(bodies: tuple[Path, Path], tmp_path: Path) -> None:
+    found = slid(bodies, tmp_path, frames=5, events=struck(tmp_path, 0.0, 4.0))
+    assert found.record.results["cycles"] == {"poses": 1}
+    assert found.record.results["wear"]["volume_mm3"] > 0.0
+
+
+def struck(folder: Path, *times: float) -> Path:
+    """Events of the right foot at these times [s]."""
+    rows = "".join(f"poses, foot strike, right, {time}\n" for time in times)
+    return written(folder / "events.csv", f"recording, event, side, time [s]\n{rows}")
+
+
 def test_what_a_worn_surface_would_change_is_doubted(
     bodies: tuple[Path, Path], tmp_path: Path, worn: AreaResult
 ) -> None:
@@ -181,6 +214,8 @@ def test_what_a_worn_surface_would_change_is_doubted(
     rest = pressures(*bodies, poses(tmp_path, (0, 19.7, 0), (0, 19.7, 0)), **LAYER, wear_factor=1e-16)
     assert any("nothing slides under pressure" in line for line in rest.warnings)
     assert len(rest.table("wear")) == 0
+    assert rest.record.results["wear"]["deepest_at_mm"] is None
+    assert "Deepest wear" not in dict(page_of(rest).facts)
 
 
 def test_the_page_shows_wear_as_a_second_map(worn: AreaResult) -> None:
