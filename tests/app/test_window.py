@@ -331,7 +331,8 @@ def test_a_page_that_is_loaded_anew_is_as_before(window: Window) -> None:
     tab.reload()
     tab.wait_for_selector(".run")
     assert tab.locator('[name="limit"]').input_value() == "6"
-    assert [each for each in tab.locator(".run strong").all_inner_texts() if each.startswith(f"{first}: done")]
+    heads = "[...document.querySelectorAll('.run strong')].map(each => each.textContent)"
+    until(tab, f"{heads}.some(each => each.startsWith('{first}: done'))", 20.0)
     tab.get_by_role("button", name=f"show {first}", exact=True).click()
     until(tab, "document.querySelectorAll('.pages iframe').length === 1", 20.0)
     assert tab.locator(f'iframe[title="results in {first}"]').count() == 1
