@@ -226,12 +226,12 @@ class Form:
         return next((one.spelled for one in self.fields if one.name == name), name)
 
     def kept(self) -> str:
-        """What was filled in, for an address."""
+        """What was filled in, for a page that is loaded anew."""
         return json.dumps({"values": self.values, "units": self.units}, ensure_ascii=False)
 
     @classmethod
     def of_kept(cls, command: str, kept: str) -> Form:
-        """The form of an address, which may be older than the fields or no such text at all."""
+        """The form that was kept; an empty one of a text that is none, without what this analysis does not have."""
         try:
             found = json.loads(kept)
             values, units = found["values"].items(), found["units"].items()

@@ -45,8 +45,7 @@ def page_name(surface: Path, unit: str) -> str:
 
 def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]:
     """Content of each file, in their order."""
-    command = [sys.executable, "-P", "-m", __name__, *map(str, paths)]
-    code, printed = _ended(command, patience)
+    code, printed = _ended(__name__, {"paths": list(map(str, paths))}, patience)
     if code == 0:
         return [Content(**each) for each in json.loads(printed)]
     why = f"its reader ended with {code}" if code is not None else f"reading lasts more than {patience:g} s"
@@ -57,8 +56,7 @@ def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]
 
 def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) -> str:
     """Write the page of a surface, which turns it in 3-D; why it cannot be written, "" where it is."""
-    command = [sys.executable, "-P", "-m", __name__, PAGE, str(surface), unit, str(out)]
-    code, printed = _ended(command, patience)
+    code, printed = _ended(__name__, {PAGE: [str(surface), unit, str(out)]}, patience)
     if code is None:
         return f"no page: writing it lasts more than {patience:g} s"
     return f"no page: the process that writes it ended with {code}" if code else str(json.loads(printed))
@@ -66,7 +64,7 @@ def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) 
 
 def answer_of(module: str, question: object, patience: float = PATIENCE) -> tuple[Any, str]:
     """What a module of this room prints for a question, both as JSON; None and why where it prints nothing."""
-    code, printed = _ended([sys.executable, "-P", "-m", module, json.dumps(question)], patience)
+    code, printed = _ended(module, question, patience)
     if code is None:
         return None, f"reading lasts more than {patience:g} s"
     return (json.loads(printed), "") if code == 0 else (None, f"the process that reads ended with {code}")
@@ -88,14 +86,16 @@ def close() -> None:
             end(process)
 
 
-def _ended(command: Sequence[str], patience: float) -> tuple[int | None, str]:
-    """Exit code of a process and what it printed; None where it lasted too long, then it ends with all it started."""
+def _ended(module: str, question: object, patience: float) -> tuple[int | None, str]:
+    """Exit code of a module's process and what it printed; None where it lasted too long, then it ends with all it
+    started. The question goes to its standard input: arguments have a largest size and are seen by other users.
+    """
     from geocontact.app.runs import end  # which a process that reads does not need
 
     quiet = subprocess.DEVNULL
     with subprocess.Popen(
-        command,
-        stdin=quiet,
+        [sys.executable, "-P", "-m", module],
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=quiet,
         encoding="utf-8",
@@ -103,16 +103,16 @@ def _ended(command: Sequence[str], patience: float) -> tuple[int | None, str]:
     ) as process:
         _running.add(process)
         try:
-            return (None, "") if _closed.is_set() else _answer(process, patience)
+            return (None, "") if _closed.is_set() else _answer(process, json.dumps(question), patience)
         finally:
             if process.poll() is None:
                 end(process)
             _running.discard(process)
 
 
-def _answer(process: subprocess.Popen[str], patience: float) -> tuple[int | None, str]:
+def _answer(process: subprocess.Popen[str], question: str, patience: float) -> tuple[int | None, str]:
     try:
-        printed, _ = process.communicate(timeout=patience)
+        printed, _ = process.communicate(question, timeout=patience)
     except subprocess.TimeoutExpired:
         return None, ""
     return process.returncode, printed
@@ -132,5 +132,6 @@ def _page(surface: str, unit: str, out: str) -> str:
 
 
 if __name__ == "__main__":
-    given = sys.argv[1:]
-    json.dump(_page(*given[1:]) if given[0] == PAGE else [asdict(content_of(Path(each))) for each in given], sys.stdout)
+    asked = json.load(sys.stdin)
+    found = _page(*asked[PAGE]) if PAGE in asked else [asdict(content_of(Path(each))) for each in asked["paths"]]
+    json.dump(found, sys.stdout)

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from importlib.machinery import PathFinder
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +29,7 @@ def columns_of(files: Sequence[Path]) -> tuple[list[tuple[str, str]], list[str]]
 
 
 def write_trials(files: Sequence[Path], rows: Sequence[Row], folder: Path) -> list[str]:
-    """Write a trial for each file into `folder`, in place of what lay there; why not, empty where they are written."""
+    """Write a trial for each file into `folder`, which is there; why not, empty where they are written."""
     asked = {"task": "trials", "files": list(map(str, files)), "rows": list(map(dict, rows)), "folder": str(folder)}
     found, wrong = answer_of(__name__, asked)
     return [wrong] if found is None else found["said"]
@@ -41,6 +45,51 @@ def answer_questions(folder: Path, answers: Mapping[str, Any]) -> str:
     """Write answers into a case that was begun; why not, "" where they are written."""
     found, wrong = answer_of(__name__, {"task": "answers", "folder": str(folder), **answers})
     return wrong if found is None else "; ".join(found["said"])
+
+
+def new_folder(first: Path) -> Path:
+    """Make a folder that nobody else has: recordings-1, or the next one that was not there."""
+    numbers = count(1)
+    while True:
+        made = first.with_name(f"{first.name}-{next(numbers)}")
+        with suppress(FileExistsError):
+            made.parent.mkdir(parents=True, exist_ok=True)
+            made.mkdir()
+            return made
+
+
+def refused_name(simulator: Path) -> str:
+    """Why a Python file cannot be imported by its name: another module has it; "" where it can."""
+    if simulator.suffix != ".py":
+        return ""
+    places = [each for each in sys.path if each and Path(each).absolute() != simulator.parent.absolute()]
+    found = PathFinder.find_spec(simulator.stem, places)
+    if simulator.stem not in sys.stdlib_module_names and (found is None or found.origin is None):
+        return ""
+    return f"{simulator.name}: a module of Python or of an installed package has this name; rename the file"
+
+
+def own_modules(case: Path, simulator: Path, kept: Path) -> tuple[Path, ...]:
+    """Folders in which Python finds the model of a begun case: a new one with its adapter alone, then the simulator's.
+
+    Parameters
+    ----------
+    case
+        Python looks for no module there.
+    simulator
+        Python file, or FMU, which has to lie beside its adapter.
+    kept
+        Folder for that of the adapter.
+    """
+    fmu = simulator.suffix.lower() == ".fmu"
+    beside = () if fmu else (simulator.parent,)
+    adapters = sorted(case.glob("*_adapter.py"))
+    if not adapters:
+        return beside
+    alone = new_folder(kept / "adapter")
+    for file in (*adapters, *((simulator,) if fmu else ())):
+        shutil.copy(file, alone / file.name)
+    return (alone, *beside)
 
 
 def _columns(asked: dict[str, Any]) -> dict[str, Any]:
@@ -62,9 +111,6 @@ def _trials(asked: dict[str, Any]) -> dict[str, Any]:
     folder, files = Path(asked["folder"]), [Path(each) for each in asked["files"]]
     if len({file.stem for file in files}) < len(files):
         raise InputError("", "trials", "two files have one name", "rename one: trials are named after their files")
-    folder.mkdir(parents=True, exist_ok=True)
-    for old in folder.glob("*.csv"):
-        old.unlink()
     for file in files:
         write_chosen(file, [ChosenColumn(**row) for row in asked["rows"]], folder / f"{file.stem}.csv")
     return {"said": []}
@@ -99,4 +145,4 @@ def answer(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    json.dump(answer(json.loads(sys.argv[1])), sys.stdout)
+    json.dump(answer(json.load(sys.stdin)), sys.stdout)

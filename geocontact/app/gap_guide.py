@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 from collections.abc import Callable
 from functools import partial
@@ -18,7 +19,15 @@ from geocontact.app.elements import choice, element, text
 from geocontact.app.fields import Form, shown
 from geocontact.app.form_view import VALUE
 from geocontact.app.gap_columns import ColumnTable
-from geocontact.app.gap_files import answer_questions, columns_of, settings_of, write_trials
+from geocontact.app.gap_files import (
+    answer_questions,
+    columns_of,
+    new_folder,
+    own_modules,
+    refused_name,
+    settings_of,
+    write_trials,
+)
 from geocontact.app.gap_questions import QuestionTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
@@ -50,6 +59,7 @@ class GapGuide:
         self._filled: dict[str, str] = {"model": OWN, "simulator": "", "trials": "", "numbers": ""}
         self._panels: dict[int, RunPanel] = {}
         self._first: Run | None = None
+        self._simulated, self._outputs = Path(), [""]
         self._columns: ColumnTable | None = None
         self._questions: QuestionTable | None = None
         with element("div", "work"):
@@ -142,38 +152,36 @@ class GapGuide:
         if self._columns is None or not (rows := self._columns.rows()):
             self._said_first.text = "choose columns first"
             return
-        data = self._files / "recordings"
+        own, model = self._filled["model"] == OWN, self._filled["model"]
+        simulator = self._filled["simulator"].strip() if own else model
+        file = _file_of(simulator, self.queue.start)
+        if own and (wrong := refused_name(file)):
+            self._said_first.text = wrong
+            return
+        data = new_folder(self._files / "recordings")
+        form = Form("gap init", {"data": str(data), "number": self._filled["numbers"], "simulator": simulator})
+        form.values |= self._columns.sides() if own else {}
+        outputs = self._columns.outputs()
         said = await aside.io_bound(write_trials, self._trials(), rows, data)
         self._said_first.text = "; ".join(said or [])
         if said:
+            shutil.rmtree(data, ignore_errors=True)
             return
-        own = self._filled["model"] == OWN
-        form = Form("gap init", {"data": str(data), "number": self._filled["numbers"]})
-        form.values["simulator"] = self._filled["simulator"].strip() if own else self._filled["model"]
-        if own:
-            form.values |= self._columns.sides()
         self._place_questions.clear()
         self._questions = None
-        self._first = self._queued(form, self._out, self._modules())
+        self._simulated, self._outputs = file, outputs
+        self._first = self._queued(form, self._out)
 
-    def _modules(self) -> str:
-        """Folders of a simulator of the user's own and of its adapter."""
-        file = self.queue.start / self._filled["simulator"].strip().partition(".py:")[0]
-        if self._filled["model"] != OWN or not self._filled["simulator"].strip():
-            return ""
-        return os.pathsep.join(map(str, (self._files, file.parent)))
-
-    def _queued(self, form: Form, out: Path, modules: str) -> Run:
+    def _queued(self, form: Form, out: Path, modules: tuple[Path, ...] = ()) -> Run:
         run = self.queue.add_apart(form.words, out, modules)
-        prefix = f"PYTHONPATH={modules} " if modules and form.command != "gap init" else ""
-        self._command.text = prefix + shown(run.words)
+        self._command.text = _finding(modules, self._simulated) + shown(run.words)
         self._panels[run.number] = RunPanel(run, self)
         return run
 
     async def _look(self) -> None:
         for run in [panel.run for panel in self._panels.values() if panel.refresh()]:
-            for name, address in run.pages.items():
-                self.show(name, address, beside=False)
+            for k, (name, address) in enumerate(run.pages.items()):
+                self.show(name, address, beside=k > 0)
             if run is self._first and run.state == "done":
                 await self._ask(run.out)
             if run is self._first and run.message:
@@ -181,22 +189,17 @@ class GapGuide:
 
     async def _ask(self, case: Path) -> None:
         """The questions that a begun case leaves."""
-        self._keep_adapters(case)
         settings = await aside.io_bound(settings_of, case)
         if not settings or self._place_questions.is_deleted:
             return
-        outputs = self._columns.outputs() if self._columns is not None else []
+        modules: tuple[Path, ...] = ()
+        if ":" in settings["system"]:  # a simulator of the user's own that Python imports
+            modules = await aside.io_bound(own_modules, case, self._simulated, self._files) or ()
         with self._place_questions:
-            self._questions = QuestionTable(settings, outputs)
+            self._questions = QuestionTable(settings, self._outputs)
             self._button("write the case", partial(self._write, case))
-            self._button("diagnose", partial(self._diagnose, case, settings["system"]))
+            self._button("diagnose", partial(self._diagnose, case, settings["system"], modules))
             self._said_case = text("p", "", "why", role="status")
-
-    def _keep_adapters(self, case: Path) -> None:
-        """Modules beside the simulator: Python does not look for any in the folder of a case."""
-        for adapter in case.glob("*_adapter.py"):
-            self._files.mkdir(parents=True, exist_ok=True)
-            shutil.copy(adapter, self._files / adapter.name)
 
     async def _write(self, case: Path) -> bool:
         """Write the answers into the case; whether it can be read with them."""
@@ -211,7 +214,29 @@ class GapGuide:
         self._said_case.text = wrong or f"written: {case / CASE}"
         return not wrong
 
-    async def _diagnose(self, case: Path, system: str) -> None:
+    async def _diagnose(self, case: Path, system: str, modules: tuple[Path, ...]) -> None:
         if await self._write(case):
             form = Form("gap diagnose", {"case": str(case), "run_simulator": system == "command"})
-            self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), self._modules())
+            self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), modules)
+
+
+def _file_of(simulator: str, start: Path) -> Path:
+    """File that a simulator is typed as, "mine.py" or "mine.py:NAME"; none has the path of a command."""
+    path, _, name = simulator.partition(".py:")
+    return start / (f"{path}.py" if name else simulator)
+
+
+def _finding(modules: tuple[Path, ...], simulator: Path) -> str:
+    """What a terminal needs before a command line, so that Python finds `modules`.
+
+    PYTHONPATH, which comes before all other folders, gets that of an adapter only, where nothing else lies; the current
+    folder is looked at last.
+    """
+    windows = os.name == "nt"
+    words = ""
+    for folder in reversed(modules):
+        if folder == simulator.parent:
+            words += f'cd /d "{folder}" && ' if windows else f"cd {shlex.quote(str(folder))} && "
+        else:
+            words += f'set "PYTHONPATH={folder}" && ' if windows else f"PYTHONPATH={shlex.quote(str(folder))} "
+    return words

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from hmac import compare_digest
 from itertools import count
 from pathlib import Path
@@ -48,6 +49,8 @@ class Shared:
         self.queue = queue
         self._uploads: dict[int, Path] = {}
         self._pages: dict[int, Path] = {}
+        self.filled: dict[str, str] = {}
+        """What was filled in on each page, by the key in its address."""
         self._keys = count(1)
 
     def upload_to(self, folder: Path) -> str:
@@ -61,6 +64,11 @@ class Shared:
         key = next(self._keys)
         self._pages[key] = page
         return f"/page/{key}"
+
+    def keep(self, key: str, filled: str) -> str:
+        """Keep what is filled in on a page, for when it is loaded anew; the key."""
+        self.filled[key] = filled
+        return key
 
     def page(self, key: int) -> Path:
         """The page at an address."""
@@ -130,7 +138,7 @@ def add_pages(queue: Queue, outside: FastAPI) -> None:
             raise HTTPException(404)
         _begin(command)
         with element("main"):
-            form_page(shared, command, bool(sample), filled)
+            form_page(shared, command, bool(sample), shared.filled.get(filled, ""))
 
     @ui.page(GUIDE)
     def _guide() -> None:
@@ -161,7 +169,7 @@ def start_page(shared: Shared) -> None:
 
 
 def form_page(shared: Shared, command: str, sampled: bool, filled: str = "") -> None:
-    """The form of an analysis, filled with its sample where that is asked for, or with what an address keeps."""
+    """The form of an analysis, filled with its sample where that is asked for, or with what was kept of a page."""
     queue = shared.queue
     form = Form.of_kept(command, filled)
     if sampled and not filled:
@@ -173,7 +181,7 @@ def form_page(shared: Shared, command: str, sampled: bool, filled: str = "") -> 
     text("h1", command, tabindex="-1")
     text("p", summary(entry_of(command).load_options()))
     files = Path(f"{out}-files")
-    place = Workplace(queue, form, out, shared.upload_to(files), files, shared.serve)
+    place = Workplace(queue, form, out, shared.upload_to(files), files, shared.serve, partial(shared.keep, secret()))
     if filled:
         place.take_up()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import secrets
@@ -20,6 +21,7 @@ from typing import IO, Literal
 from urllib.parse import quote
 
 from geocontact.analyses.frame.folder import DRAFT, OWNER
+from geocontact.app.child import MODULES
 from geocontact.app.gate import RESULT, secret
 from geocontact.cli.main import FAILURE, USAGE_ERROR
 
@@ -49,13 +51,13 @@ class Run:
     title
         What it is, for lists.
     modules
-        Folders in which Python looks for a simulator of the user's own, as PYTHONPATH has them; "" for none.
+        Folders in which Python looks for a simulator of the user's own, after all others.
     """
 
     words: list[str]
     out: Path
     title: str
-    modules: str = ""
+    modules: tuple[Path, ...] = ()
     number: int = 0
     state: State = "waiting"
     stage: str = ""
@@ -151,7 +153,7 @@ class Queue:
         """A run that begins when those before it have ended."""
         return self.remember(Run(list(words), out, title))
 
-    def add_apart(self, words: Callable[[Path], Sequence[str]], out: Path, modules: str = "") -> Run:
+    def add_apart(self, words: Callable[[Path], Sequence[str]], out: Path, modules: tuple[Path, ...] = ()) -> Run:
         """A run into `out`, or into the next folder of that name and number where another run has it already."""
         with self._changed:
             taken = {_spot(run.out) for run in self.runs if run.state in HOLD_THEIR_FOLDER}
@@ -214,13 +216,12 @@ class Queue:
 def _start(run: Run, folder: Path) -> None:
     """Start the process, in a group of its own, so that all of it can be ended; no module of `folder` is imported."""
     run.state, run.began = "running", time.monotonic()
-    places = os.pathsep.join(filter(None, (run.modules, os.environ.get("PYTHONPATH", ""))))
     run.process = subprocess.Popen(
         [sys.executable, "-P", "-m", "geocontact.app.child", *run.words],
         cwd=folder,
         env=os.environ
         | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8", OWNER: run.mark}
-        | ({"PYTHONPATH": places} if places else {}),
+        | {MODULES: json.dumps([os.path.abspath(each) for each in run.modules])},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -35,9 +35,9 @@ addEventListener('DOMContentLoaded', () => {
   what.textContent = 'The window does not answer.';
   then.textContent = 'If geocontact app was ended, start it again: results are in their folder. Else wait, this page connects again.';
 });
-const keep = filled => {
+const keep = key => {
   const here = new URL(location);
-  here.search = new URLSearchParams({ filled });
+  here.search = new URLSearchParams({ filled: key });
   history.replaceState(history.state, '', here);
 };
 addEventListener('popstate', () => location.reload());

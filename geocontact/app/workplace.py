@@ -48,16 +48,25 @@ class Workplace:
         Folder that they are kept in, with pages of surfaces.
     serve
         Address of a page that was written there.
+    keep
+        Takes what was filled in; its key for the address, which has no paths of files and a largest size.
     """
 
     def __init__(
-        self, queue: Queue, form: Form, out: Path, upload: str, files: Path, serve: Callable[[Path], str]
+        self,
+        queue: Queue,
+        form: Form,
+        out: Path,
+        upload: str,
+        files: Path,
+        serve: Callable[[Path], str],
+        keep: Callable[[str], str],
     ) -> None:
         self.queue, self.form, self.out = queue, form, out
         self.words: list[str] = []
         self._named = form.command.split()
         self._dirty = True
-        self._kept = form.kept()
+        self._kept, self._keep = form.kept(), keep
         self._panels: dict[int, RunPanel] = {}
         with element("div", "work"):
             with element("div", "fields"):
@@ -180,7 +189,7 @@ class Workplace:
         self.missing.text = self.view.refresh(wrong)
         if (kept := self.form.kept()) != self._kept:
             self._kept = kept
-            ui.run_javascript(f"keep({json.dumps(kept)})")
+            ui.run_javascript(f"keep({json.dumps(self._keep(kept))})")
 
 
 class RunPlace(Protocol):

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import os
+import subprocess
+import sys
+import time
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,9 +23,12 @@ from nicegui.page import page
 
 from geocontact.analyses.frame.rerun import differing, results_of
 from geocontact.analyses.gap.init.options import QUESTIONS
+from geocontact.app.fields import Form
 from geocontact.app.gap_columns import CHANNELS, ColumnTable
-from geocontact.app.gap_files import answer_questions, columns_of, write_trials
+from geocontact.app.gap_files import answer_questions, columns_of, own_modules, refused_name, write_trials
+from geocontact.app.gap_guide import GapGuide, _finding
 from geocontact.app.gap_questions import QuestionTable
+from geocontact.app.runs import Queue, Run
 from geocontact.systems.elbow import ELBOW
 from geocontact.systems.knee import KNEE
 from tests.app.conftest import Window
@@ -59,6 +68,7 @@ def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
     (tmp_path / "raw" / "t3.csv").write_text("time [s],knee [deg]\n0,1\n1,2\n")
     assert columns_of([*files, tmp_path / "raw" / "t3.csv"])[1] == ["t3.csv: lacks idle, load, which t1.csv has"]
     rows = [{"column": "load", "channel": "torque", "unit": "N m"}]
+    (tmp_path / "out").mkdir()
     assert write_trials(files, rows, tmp_path / "out") == []
     assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["t1.csv", "t2.csv"]
     assert (tmp_path / "out" / "t1.csv").read_text("utf-8").startswith("time [s],torque [N m]\n")
@@ -67,10 +77,139 @@ def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
     again = tmp_path / "other" / "t1.csv"
     again.write_bytes(files[0].read_bytes())
     assert "two files have one name" in write_trials([*files, again], rows, tmp_path / "out")[0]
-    assert (
-        "there is no such folder" in columns_of([tmp_path / "gone.csv"])[1][0] or columns_of([tmp_path / "gone.csv"])[1]
+    assert columns_of([tmp_path / "gone.csv"]) == (
+        [],
+        [f"{tmp_path / 'gone.csv'}: there is no such file; check the path"],
     )
-    assert answer_questions(tmp_path, {"evaluation": [], "numbers": {}, "noise": {}})  # no case there
+    wrong = answer_questions(tmp_path, {"evaluation": [], "numbers": {}, "noise": {}})
+    assert wrong.startswith(f"{tmp_path / 'case.toml'}: "), wrong
+
+
+def test_a_question_may_be_longer_than_an_argument() -> None:
+    """2,000 names of 100 characters; Linux takes arguments of 131,072 bytes."""
+    files = [Path(f"{k:0100d}.csv") for k in range(2000)]
+    assert columns_of(files)[0] == [] and columns_of(files)[1] == columns_of(files[:1])[1]
+
+
+class Pressed:
+    """A guide without its page, whose trials and simulator are filled in; what it queues."""
+
+    def __init__(self, folder: Path, trials: list[Path], simulator: Path) -> None:
+        self.guide = GapGuide.__new__(GapGuide)
+        self.runs: list[Run] = []
+        filled = {"model": "", "simulator": str(simulator), "trials": "\n".join(map(str, trials)), "numbers": ""}
+        label = SimpleNamespace(text="", clear=lambda: None)
+        self.rows = [{"column": "load", "channel": "load", "unit": "N m"}]
+        columns = SimpleNamespace(rows=lambda: self.rows, sides=dict, outputs=lambda: ["load"])
+        vars(self.guide).update(
+            queue=SimpleNamespace(start=folder),
+            _files=folder / "files",
+            _out=folder / "case",
+            _filled=filled,
+            _columns=columns,
+            _said_first=label,
+            _place_questions=label,
+            _queued=self._queued,
+        )
+
+    def _queued(self, form: Form, out: Path, modules: tuple[Path, ...] = ()) -> Run:
+        self.runs.append(Run(form.words(out), out, "", modules))
+        return self.runs[-1]
+
+    def press(self) -> str:
+        """What it says when the trials are to be simulated."""
+        asyncio.run(self.guide._simulate())
+        return str(self.guide._said_first.text)
+
+
+def test_each_press_has_recordings_of_its_own(tmp_path: Path) -> None:
+    """The first run still waits when other columns are chosen, and another page begins with the same folder."""
+    files, simulator = strut_trials(tmp_path / "files" / "recordings", 2), tmp_path / "strut_model.py"
+    before = [file.read_bytes() for file in files]
+    first, other = (Pressed(tmp_path, files, simulator) for _ in range(2))
+    assert (first.press(), first.press(), other.press()) == ("", "", "")
+    runs = [*first.runs, *other.runs]
+    data = [next(word for word in run.words if word.startswith("--data=")).partition("=")[2] for run in runs]
+    assert len(set(data)) == 3 and all(sorted(map(str, Path(each).glob("*.csv"))) for each in data)
+    assert [run.modules for run in runs] == [(), (), ()]  # what `gap init` runs it finds by itself
+    assert [file.read_bytes() for file in files] == before
+    there = sorted((tmp_path / "files").iterdir())
+    first.rows[0]["column"] = "gone"
+    assert "no column 'gone'" in first.press() and sorted((tmp_path / "files").iterdir()) == there
+
+
+def test_a_simulator_with_the_name_of_another_module_is_refused(tmp_path: Path) -> None:
+    """`gap init` would run the file, and the diagnosis the module."""
+    for name in ("profile", "numpy"):
+        pressed = Pressed(tmp_path, strut_trials(tmp_path / name, 1), tmp_path / f"{name}.py")
+        assert pressed.press().endswith("has this name; rename the file") and not pressed.runs
+    assert refused_name(tmp_path / "strut_model.py") == ""
+
+
+def test_all_pages_of_a_run_are_shown() -> None:
+    guide = GapGuide.__new__(GapGuide)
+    shown: list[tuple[str, str, bool]] = []
+    run = SimpleNamespace(pages={"a": "1", "b": "2"}, message="")
+    panel = SimpleNamespace(run=run, refresh=lambda: True)
+    vars(guide).update(_panels={1: panel}, _first=None, show=lambda *page, beside: shown.append((*page, beside)))
+    asyncio.run(guide._look())
+    assert shown == [("a", "1", False), ("b", "2", True)]
+
+
+def test_a_diagnosis_imports_the_simulator_that_was_simulated(tmp_path: Path) -> None:
+    """A corrected file was dropped, an older one and older adapters lie around; modules with names of Python's and of
+    installed ones are not run."""
+    case, kept, latest = tmp_path / "case", tmp_path / "files", tmp_path / "files" / "2"
+    (case / "trials").mkdir(parents=True)
+    latest.mkdir(parents=True)
+    adapter = "from strut_model import WHICH\nraise RuntimeError(f'adapter of {ADAPTER}, simulator {WHICH}')\n"
+    for folder, name in ((kept, "old"), (latest, "latest"), (case, "case")):
+        (folder / "strut_model_adapter.py").write_text(f"ADAPTER = {name!r}\n{adapter}")
+        (folder / "strut_model.py").write_text(f"WHICH = {name!r}\n")
+        for module in ("numpy", "signal", "cyclopts", "sitecustomize"):
+            (folder / f"{module}.py").write_text(f"open({str(tmp_path / 'was run')!r}, 'w')\n")
+    strut_trials(case / "made", 2)
+    for file in (case / "made").glob("*.csv"):
+        assert not write_trials([file], [{"column": "load", "channel": "load", "unit": "N m"}], case / "trials")
+    (case / "case.toml").write_text(
+        'format = 1\nsystem = "strut_model_adapter:SIMULATOR"\ncalibration = ["t1"]\nevaluation = ["t2"]\n'
+        '[parameters.k]\nstart = 50\nlower = 10\nupper = 200\nunit = "N m/rad"\n'
+    )
+    modules = own_modules(case, latest / "strut_model.py", kept)
+    assert modules[1:] == (latest,) and [each.name for each in modules[0].iterdir()] == ["strut_model_adapter.py"]
+    queue = Queue(tmp_path)
+    try:
+        words = ["gap", "diagnose", str(case), f"--out={tmp_path / 'out'}"]
+        run = queue.remember(Run(words, tmp_path / "out", "out", modules=modules))
+        until_over(run)
+    finally:
+        queue.close()
+    assert "adapter of case, simulator latest" in run.message, run.said
+    assert not (tmp_path / "was run").exists()
+    typed = _finding(modules, latest / "strut_model.py")
+    program = f'"{sys.executable}" -P -c "from geocontact.cli.main import main; main()"'
+    line = f"{typed}{program} gap diagnose {case} --out={tmp_path / 'out'}"
+    own = {"PYTHONPATH": ""} | {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run(line, shell=True, cwd=tmp_path, env=own, capture_output=True, text=True)
+    assert "adapter of case, simulator latest" in done.stderr and not (tmp_path / "was run").exists()
+
+
+def test_an_fmu_lies_beside_its_adapter_and_nothing_else_does(tmp_path: Path) -> None:
+    case = tmp_path / "case"
+    case.mkdir()
+    for file in (case / "strut_adapter.py", tmp_path / "strut.fmu", tmp_path / "numpy.py"):
+        file.write_text("x")
+    (alone,) = own_modules(case, tmp_path / "strut.fmu", tmp_path / "files")
+    assert sorted(each.name for each in alone.iterdir()) == ["strut.fmu", "strut_adapter.py"]
+    assert own_modules(tmp_path / "no case", tmp_path / "model.py", tmp_path / "files") == (tmp_path,)
+
+
+def until_over(run: Run) -> None:
+    """Wait for the end of a run."""
+    end = time.monotonic() + 240.0
+    while not run.over:
+        assert time.monotonic() < end, run.said
+        time.sleep(0.02)
 
 
 def labelled(client: Client) -> dict[str, Element]:

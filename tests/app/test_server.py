@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 import time
+from importlib import resources
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -122,3 +123,10 @@ def test_the_port_of_a_window_that_was_closed_is_free_at_once() -> None:
             there.close()
             client.recv(1)
     _listening(port).close()
+
+
+def test_names_of_the_script_are_declared_once() -> None:
+    """A browser takes nothing of a script that declares a name twice."""
+    text = (resources.files("geocontact.app") / "script.js").read_text("utf-8")
+    names = re.findall(r"^(?:const|let|class|(?:async )?function) (\w+)", text, re.MULTILINE)
+    assert len(names) > 5 and len(set(names)) == len(names)

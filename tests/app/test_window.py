@@ -331,7 +331,8 @@ def test_a_page_that_is_loaded_anew_is_as_before(window: Window) -> None:
     tab.reload()
     tab.wait_for_selector(".run")
     assert tab.locator('[name="limit"]').input_value() == "6"
-    assert [each for each in tab.locator(".run strong").all_inner_texts() if each.startswith(f"{first}: done")]
+    heads = "[...document.querySelectorAll('.run strong')].map(each => each.textContent)"
+    until(tab, f"{heads}.some(each => each.startsWith('{first}: done'))", 20.0)
     tab.get_by_role("button", name=f"show {first}", exact=True).click()
     until(tab, "document.querySelectorAll('.pages iframe').length === 1", 20.0)
     assert tab.locator(f'iframe[title="results in {first}"]').count() == 1
@@ -350,11 +351,29 @@ def test_a_file_that_was_added_is_taken_out_again(window: Window, tmp_path: Path
     line = "document.querySelector('[aria-label=\"command line\"]').textContent"
     until(tab, f"!{line}.includes('wrong.csv') && {line}.includes('right.csv')", 20.0)
     tab.locator('[name="threshold-unit"]').select_option("cm")
-    until(tab, "location.search.includes('cm')", 20.0)
+    tab.locator('[name="threshold"]').fill("0.5")
+    until(tab, f"{line}.includes('0.5') && {line}.includes('cm')", 20.0)
+    until(tab, "location.search.includes('filled')", 20.0)
     tab.reload()
     said = "document.querySelector('.field:has([name=motion]) .content')?.textContent ?? ''"
     until(tab, f"({said}).includes('right.csv')", 60.0)
     assert tab.locator('[name="threshold-unit"]').input_value() == "cm"
+    tab.close()
+
+
+def test_what_is_kept_of_a_page_is_not_in_its_address(window: Window) -> None:
+    """Addresses stay in the history of the browser, and the server takes 64 KiB of one."""
+    tab = window.tab("form/area")
+    typed = "\n".join(f"somebody/{'walk' * 200}{k:03d}.csv" for k in range(100))
+    put = "(box, typed) => { box.value = typed; box.dispatchEvent(new Event('input', { bubbles: true })); }"
+    tab.locator('[name="motion"]').evaluate(put, typed)
+    line = "document.querySelector('[aria-label=\"command line\"]').textContent"
+    until(tab, f"{line}.includes('walk099')", 60.0)
+    until(tab, "location.search.includes('filled')", 60.0)
+    assert "somebody" not in tab.url and len(urlsplit(tab.url).query) < 100
+    tab.reload()
+    tab.wait_for_selector("h1")
+    assert tab.locator('[name="motion"]').input_value() == typed
     tab.close()
 
 
