@@ -15,6 +15,9 @@ from jaxtyping import Bool, Float, Int
 from geocontact.geometry.kernels.ray import exits
 from geocontact.geometry.surface import Surface
 
+STEEP = 2.0
+"""Distance along a normal over the nearest one up to which both are to the same place: surfaces 60 degrees apart."""
+
 
 @dataclass(frozen=True, eq=False)
 class ThicknessMap:
@@ -29,7 +32,7 @@ class ThicknessMap:
     along, nearest
         Distance to INNER along the normal, and to its nearest point [m]; NaN where INNER is not met within `most`.
     inside
-        Faces that lie inside INNER, where that is closed: there is no thickness.
+        Faces that lie inside INNER, or where that is open beyond it: the surfaces cross, there is no thickness.
     outwards
         Whether INNER is met along the normals of OUTER instead of against them.
     most
@@ -82,6 +85,10 @@ def thickness_map(
     Lines go against the normals of OUTER, or along them where more of its area meets INNER so: open patches may be
     wound either way. Faces without area have no centroid, and one that stands in the file twice counts once.
 
+    Beyond an open INNER lies a face whose line the other way meets it sooner, no more than `STEEP` times as far away as
+    its nearest point: where surfaces cross they adjoin, and the other condyle is farther off. The whole boundary of a
+    layer, a closed OUTER without `faces`, faces INNER with its underside, which is not taken for crossing.
+
     Parameters
     ----------
     outer, inner
@@ -101,9 +108,12 @@ def thickness_map(
     met = [float(area[np.isfinite(each)].sum()) for each in (against, along)]
     outwards = met[1] > met[0]
     near = inner.proximity(point, most).distance
-    inside = (near < 0.0) & inner.closed
+    found, other = (along, against) if outwards else (against, along)
+    if inner.closed:
+        inside = near < 0.0
+    else:
+        inside = (other < found) & (other <= STEEP * np.abs(near)) & (faces is not None or not outer.closed)
     nowhere = inside | ~np.isfinite(near)
-    found = along if outwards else against
     return ThicknessMap(
         face=face,
         point=point,

@@ -14,7 +14,8 @@ import geocontact as gc
 from geocontact.analyses.motion.naming import SOFT, coverages, named_markers, recognised
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.body_places import PLACES
-from geocontact.data.multibody.marker_sets import MARKER_SETS, normalised
+from geocontact.data.multibody.marker_labels import normalised
+from geocontact.data.multibody.marker_sets import MARKER_SETS
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.io.mocap.trc import read_trc, write_trc
@@ -423,3 +424,18 @@ def two_legs(tmp_path: Path) -> Path:
         f"<MarkerSet><objects>{markers}</objects></MarkerSet></Model></OpenSimDocument>"
     )
     return path
+
+
+@pytest.mark.filterwarnings("ignore::geocontact.data.errors.InputWarning")
+def test_an_iliac_crest_is_used_on_a_model_without_its_label(file: Path) -> None:
+    """Within 25 mm of where the internal oblique begins on gait2354's subject01, intobl_r-P1, and outside of it."""
+    labels = ("R.ASIS", "L.ASIS", "R.Iliac.Crest", "L.Iliac.Crest", "R.GTR", "R.Knee", "R.HF", "R.TT", "R.Ankle")
+    seen = MarkerTrajectories(np.zeros(1), np.zeros((1, len(labels), 3)), labels, "synthetic")
+    found = named_markers(read_multibody(file), seen, "ior-bmclab")
+    at = {m.name: m.location for m in found.model.markers if m.body == "pelvis"}
+    muscle = np.array([-0.0409831, 0.0717204, 0.118544])
+    size = at["R.Iliac.Crest"][1] / 0.075
+    assert np.linalg.norm(at["R.Iliac.Crest"] / size - muscle) < 0.025
+    assert at["R.Iliac.Crest"][2] / size > muscle[2]
+    np.testing.assert_allclose(at["L.Iliac.Crest"], at["R.Iliac.Crest"] * [1.0, 1.0, -1.0])
+    assert set(found.weights.values()) == {1.0}, "a bony place"

@@ -14,7 +14,8 @@ from geocontact.analyses.motion.model_setup import KnownSetup, known_setup, setu
 from geocontact.analyses.motion.naming import Coverage, NamedLabel, Naming
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.multibody.body_places import PLACES
-from geocontact.data.multibody.marker_sets import MARKER_SETS, normalised
+from geocontact.data.multibody.marker_labels import normalised
+from geocontact.data.multibody.marker_sets import MARKER_SETS
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Body, Marker, Multibody
 from geocontact.data.multibody.model_setups import MODEL_SETUPS
@@ -325,7 +326,7 @@ def _at(body: str, side: str) -> np.ndarray:
 
 @pytest.fixture
 def walker(tmp_path: Path) -> Path:
-    """The bodies of gait2392, with the markers of its set."""
+    """The bodies of gait2392, with the markers of its set, and its coordinates of the foot."""
 
     def both(names: dict[str, object]) -> list[tuple[str, str]]:
         return [(n, s) for n in names for s in ("rl" if "{s}" in n or n in list(BODIES)[2:] else "r")]
@@ -344,6 +345,8 @@ def walker(tmp_path: Path) -> Path:
             _mirrored(BODIES[n][1], s),
             6 if n == "pelvis" else 3 if n in {"femur", "torso"} else 1,
         )
+        .replace(f"to_calcn_{s}_0", f"subtalar_angle_{s}")
+        .replace(f"to_toes_{s}_0", f"mtp_angle_{s}")
         for n, s in both(dict(BODIES))
     )
     markers = "".join(
@@ -394,9 +397,12 @@ def test_a_subject_is_scaled_by_the_set_ups_pairs(walker: Path, standing: Path, 
     assert "set-up gait2392: 5 of 5 measurements, 8 of 8 pairs were recorded" in made.sentences
     weights = _weights(TASKS["gait2392", "standing"])
     assert made.standing.tasks.markers == {label: weights[label] for label in made.standing.markers.names}
+    foot = {f"{name}_angle_{side}": (1000.0, None) for name in ("subtalar", "mtp") for side in "rl"}
+    assert made.standing.tasks.coordinates == foot, "as in gait2392_Scale_Tasks.xml"
     scaled = made.write(tmp_path / "s") / "scaled.osim"
     angles = gc.inverse_kinematics(standing, model=scaled, model_setup="auto")
     assert angles.seen.tasks.markers["R.ASIS"] == 10.0 and angles.seen.tasks.markers["Top.Head"] == 0.1
+    assert angles.seen.tasks.coordinates == foot, "as in gait2392_IK_Tasks.xml"
     chosen = gc.inverse_kinematics(standing, model=scaled, model_setup="auto", weight=("R.ASIS=3",))
     assert chosen.seen.tasks.markers["R.ASIS"] == 3.0, "typed weights count"
     typed = gc.scale(standing, model=walker, model_setup="auto", scale=("pelvis=1.1",))

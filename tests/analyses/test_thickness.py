@@ -77,6 +77,29 @@ def test_surfaces_that_cross_touch_or_are_exchanged_are_doubted(tmp_path: Path) 
     assert any("is it the whole boundary of the layer?" in line for line in same.warnings)
 
 
+def patch(file: Path, radius: float, least: float, x: float = 0.0) -> Path:
+    """An open cap of a ball whose centre is moved by x [mm]."""
+    vertices, faces = sphere(radius, 40)
+    return written(
+        file, stl_bytes(np.add(vertices, (x, 0.0, 0.0)), faces[vertices[faces].mean(axis=1)[:, 1] > least], "cap")
+    )
+
+
+def test_open_surfaces_that_cross_are_doubted_as_such(tmp_path: Path) -> None:
+    """A quarter has no thickness; a larger `most` would give it none, and it does not enter the mean."""
+    outer, inner = patch(tmp_path / "outer.stl", 20.0, 12.0), patch(tmp_path / "inner.stl", 18.0, 2.0, 6.0)
+    found = layer(outer, inner, paraview=True)
+    (said,) = [line for line in found.warnings if "cross" in line]
+    assert "of the area of outer.stl lies beyond inner.stl: the surfaces cross, there is no thickness" in said
+    assert not any("nowhere within" in line for line in found.warnings)
+    assert np.isnan(found.nearest).mean() > 0.1
+    pyvista = pytest.importorskip("pyvista")
+    found.write(tmp_path / "out")
+    table, surface = pd.read_csv(tmp_path / "out" / "thickness.csv"), pyvista.read(tmp_path / "out" / "thickness.vtp")
+    seen = surface.cell_data["thickness nearest distance [mm]"][table["face"]]
+    np.testing.assert_array_equal(np.isnan(seen), np.isnan(table["nearest [mm]"]))
+
+
 def test_an_open_patch_that_is_wound_inwards_is_used_with_a_warning(tmp_path: Path) -> None:
     vertices, faces = sphere(20.0, 20)
     upper = faces[vertices[faces].mean(axis=1)[:, 1] > 5.0][:, ::-1]

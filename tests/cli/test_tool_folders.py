@@ -422,8 +422,49 @@ def test_a_model_and_its_motions_alone_are_trials(leg: Path, tmp_path: Path) -> 
     with pytest.raises(InputError, match="no trial has markers; is the folder complete"):
         folder_inputs("ik", root)
     (root / "leg.osim").unlink()
-    with pytest.raises(InputError, match="is no folder of trials"):
+    with pytest.raises(InputError, match=r"is no folder of trials; .* with a model and its motions$"):
         read_tool_folder(root)
+
+
+def test_loads_that_leave_it_open_which_is_meant_are_refused(leg: Path, tmp_path: Path) -> None:
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.mot", "walk.mot"), ("loads.xml", "walk_grf.xml"))
+    put(leg, root, ("loads.xml", "walk_external_loads.xml"))
+    both = r"walk_external_loads.xml and walk_grf.xml are loads of one trial; leave one there, or name it with `loads`"
+    for command in ("id", "sit-to-stand coordinates"):
+        with pytest.raises(InputError, match=both):
+            folder_inputs(command, root)
+    (typed,) = folder_inputs("id", root, typed=frozenset({"loads"}))
+    assert not typed.warnings
+    assert folder_inputs("markers", root), "which needs no loads"
+    for name in ("walk_grf.xml", "walk_external_loads.xml"):
+        (root / name).unlink()
+    put(leg, root, ("grf.mot", "walk_grf.mot"), ("grf.mot", "walk_forces.mot"))
+    with pytest.raises(InputError, match=r"`plates` \S*walk_forces.mot or \S*walk_grf.mot `plate`"):
+        folder_inputs("id", root)
+
+
+@pytest.mark.parametrize("name", ["walk_Grf", "grf_walk", "External_Loads", "Walk_ExternalLoads", "forces_grf"])
+def test_loads_are_found_by_each_name_that_public_folders_use(leg: Path, tmp_path: Path, name: str) -> None:
+    """The last is gait2354's: two words of loads, of no trial."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.mot", "walk.mot"), ("walk.mot", "static.mot"))
+    put(leg, root, ("loads.xml", f"{name}.xml"), ("grf.mot", "grf.mot"))
+    (found,) = folder_inputs("id", root)
+    assert dict(found.options)["loads"] == str(root / f"{name}.xml") and not found.warnings
+
+
+def test_files_that_may_hold_the_loads_are_named(leg: Path, tmp_path: Path) -> None:
+    """Plates under a trial's own name beside its angles, and loads of no trial where there are two; no other file."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.trc", "walk.trc"), ("walk.mot", "walk_ik.mot"))
+    put(leg, root, ("grf.mot", "walk.mot"), ("walk.mot", "angles.mot"))
+    (root / "setup_ik.xml").write_text("<OpenSimDocument><InverseKinematicsTool/></OpenSimDocument>")
+    (one,) = folder_inputs("id", root)
+    (said,) = one.warnings
+    assert said.endswith("nothing but gravity acts; perhaps in walk.mot (`loads` for .xml, `plates` for .mot)")
+    put(leg, root, ("walk.trc", "run.trc"), ("walk.mot", "run.mot"), ("loads.xml", "External_Loads.xml"))
+    for each in folder_inputs("id", root):
+        assert "perhaps in External_Loads.xml, walk.mot (" in each.warnings[0]
+    for each in folder_inputs("sit-to-stand coordinates", root):
+        assert "else `plates`; perhaps in External_Loads.xml, walk.mot (" in each.warnings[0]
 
 
 def test_trials_one_folder_below_are_named(leg: Path, tmp_path: Path) -> None:

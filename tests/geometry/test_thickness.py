@@ -86,6 +86,39 @@ def test_what_is_too_far_or_inside_has_no_thickness() -> None:
     assert np.isnan(crossing.along[crossing.inside]).all() and np.isnan(crossing.nearest[crossing.inside]).all()
 
 
+def cap(radius: float, at: tuple[float, float, float], least: float, n: int = 40, turned: bool = False) -> Surface:
+    """Faces of a sphere whose normals have at least this along y: an open patch [m]."""
+    whole = ball(radius, at, n)
+    faces = whole.faces[whole.face_normal[:, 1] > least]
+    return Surface(whole.vertices, faces[:, ::-1] if turned else faces, "cap")
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_an_open_surface_that_crosses_has_no_thickness_there(turned: bool) -> None:
+    """Two caps, the inner one shifted sideways: beyond it are centroids farther in than its radius, by hand."""
+    centre = np.array([6.0, 0.0, 0.0]) * MM
+    found = mapped(cap(R, (0.0, 0.0, 0.0), 0.6), cap(18.0 * MM, tuple(centre), 0.2, turned=turned))
+    beyond = np.linalg.norm(found.point - centre, axis=1) < 18.0 * MM
+    assert 0.1 < beyond.mean() < 0.4 and (found.inside == beyond).mean() > 0.99
+    assert np.isnan(found.along[found.inside]).all() and np.isnan(found.nearest[found.inside]).all()
+    clear = mapped(cap(R, (0.0, 0.0, 0.0), 0.6), cap(SMALL, (0.0, 0.0, 0.0), 0.2, turned=turned))
+    assert not clear.inside.any() and clear.covered == 1.0
+
+
+def test_another_condyle_and_the_underside_of_a_layer_do_not_cross() -> None:
+    """A thin layer on one of two open caps that face each other, then a closed slab just above an open square."""
+    one, other = cap(R, (0.0, 0.0, 0.0), 0.0), ball(R, (0.0, 46.0 * MM, 0.0))
+    facing = other.faces[other.face_normal[:, 1] < 0.0]
+    both = Surface(np.vstack([one.vertices, other.vertices]), np.vstack([one.faces, facing + len(one.vertices)]), "two")
+    upper = mapped(cap(R + 2.0 * MM, (0.0, 0.0, 0.0), 0.5), both, most=30.0 * MM)
+    assert not upper.inside.any() and np.nanmax(upper.along) < 2.2 * MM
+    slab = Surface(*_scaled(block(10.0, 10.0, 4.0, 4)), "slab")
+    base = wedge(0.0)[1]
+    floor = (0.0, slab.vertices[:, 1].min() - 0.1 * MM, 0.0)
+    below = Surface(np.add(base.vertices, floor), base.faces, "base")
+    assert not mapped(slab, below).inside.any()
+
+
 def test_a_region_and_quantiles_weighted_with_area() -> None:
     top, base = wedge(0.2)
     found = mapped(top, base, faces=np.array([False, True]))

@@ -96,3 +96,14 @@ def test_models_that_cannot_take_a_mesh(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="drawn in a frame that is not its own"):
         write_with_meshes(turned, tmp_path / "copy.osim", {"c": ("n", "n.stl")}, 1e-3)
     assert not (tmp_path / "copy.osim").exists()
+
+
+@pytest.mark.parametrize("text", [model3("PinJoint", "", ("a",), "false"), model4(joint4("PinJoint", "", ("a",)))])
+def test_a_mesh_of_an_earlier_copy_is_replaced(tmp_path: Path, text: str) -> None:
+    """On the other body too, and nothing else with it."""
+    source = written(tmp_path, text)
+    write_with_meshes(source, tmp_path / "one.osim", {"c": ("ours", "a.stl"), "p": ("other", "b.stl")}, 1e-3)
+    write_with_meshes(tmp_path / "one.osim", tmp_path / "two.osim", {"p": ("ours", "c.stl")}, 1e-3)
+    own = {body: set(mesh_placements(source, body)) for body in "pc"}
+    assert set(mesh_placements(tmp_path / "two.osim", "p")) == own["p"] | {"b.stl", "c.stl"}
+    assert set(mesh_placements(tmp_path / "two.osim", "c")) == own["c"]

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Bool
 
+from geocontact.analyses.area.export_model import model_to_copy
 from geocontact.analyses.area.literature import Flexions, flexions_of
 from geocontact.analyses.area.options import LITERATURE, AreaOptions
 from geocontact.analyses.area.wear import refuse_other_cycles, wear_factor_of
@@ -336,6 +337,7 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     """The same with motions, by the names of their sub-folders, that `moved` gives for the surface of MOVING."""
     if o.paraview:
         require_pyvista()
+    model_to_copy(o)
     split = None
     if o.split is not None:
         split = places.splitting_plane(o.split, o.unit), medial_side(o.split, o.side, o.medial)

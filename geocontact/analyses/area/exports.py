@@ -10,8 +10,8 @@ from jaxtyping import Bool, Float, Int
 
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.contact import AGREED, MotionResult
+from geocontact.analyses.area.export_model import model_to_copy
 from geocontact.analyses.area.options import AreaOptions
-from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM
 from geocontact.data.version import VERSION
 from geocontact.geometry.surface import Surface
@@ -20,7 +20,6 @@ from geocontact.io.finite_elements.abaqus import write_abaqus
 from geocontact.io.finite_elements.febio import write_febio
 from geocontact.io.finite_elements.rigid_pair import MPA_PER_MM, RigidPair
 from geocontact.io.mesh.stl import write_stl
-from geocontact.io.opensim.osim import read_joint
 from geocontact.io.opensim.osim_attached import write_with_meshes
 from geocontact.loads.overlap import overlap
 from geocontact.loads.pressure_evolution import PressureEvolution
@@ -167,16 +166,17 @@ def _doubts_of_time(one: MotionResult) -> Iterator[str]:
 
 def _write_model(o: AreaOptions, bodies: Bodies, folder: Path) -> None:
     """The joint's model with a mesh more on both of its bodies, in mm with scale factors of 0.001."""
-    if o.osim is None or o.joint is None:
-        raise InputError("", "`export`", "opensim needs a joint", "give `osim` and `joint`")
-    joint = read_joint(o.osim, o.joint)
+    copied = model_to_copy(o)
+    if copied is None:
+        return
+    source, joint = copied
     fixed, moving = (joint.parent, joint.child) if o.moving_body != "parent" else (joint.child, joint.parent)
     (folder / GEOMETRY).mkdir(exist_ok=True)
     attached = {}
     for body, part, surface in ((fixed, "fixed", bodies.fixed), (moving, "moving", bodies.moving)):
         _write_surface(folder / GEOMETRY / f"{part}.stl", surface, body)
         attached[body] = (f"geocontact_{part}", f"{part}.stl")
-    write_with_meshes(o.osim, folder / o.osim.name, attached, 1.0 / MM)
+    write_with_meshes(source, folder / source.name, attached, 1.0 / MM)
 
 
 def _write_surface(file: Path, surface: Surface, body: str) -> None:

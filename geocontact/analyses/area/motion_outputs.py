@@ -10,6 +10,7 @@ import numpy as np
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.contact import MotionResult
 from geocontact.analyses.area.distance_file import FILE, write_maps
+from geocontact.analyses.area.export_model import EXPORT
 from geocontact.analyses.area.exports import write_exports
 from geocontact.analyses.area.figure import area_figure, colour_span, write_paraview, write_stills
 from geocontact.analyses.area.options import AreaOptions
@@ -28,9 +29,6 @@ if TYPE_CHECKING:
 
 PARAVIEW = "paraview"
 """Folder of the series for ParaView."""
-
-EXPORT = "export"
-"""Folder of the models for other programs."""
 
 PRESSURE_MAPS = "pressure.npz"
 

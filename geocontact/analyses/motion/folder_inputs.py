@@ -15,7 +15,7 @@ from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.io.mocap.c3d_plates import read_c3d_plates
 from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.segment_poses import holds_segments, read_c3d_poses
-from geocontact.io.opensim.external_loads import read_external_loads
+from geocontact.io.opensim.external_loads import may_hold_loads, read_external_loads
 from geocontact.io.opensim.osim_xml import numbers_of, read_model
 from geocontact.io.recordings.tool_folder import (
     ADDBIOMECHANICS,
@@ -91,8 +91,7 @@ class FolderInputs:
     def recognised(self) -> dict[str, object]:
         """What `run.json` says of it."""
         said = {"kind": self.kind, "folder": self.folder.as_posix(), "trial": self.trial}
-        parts = [asdict(part) for part in self.parts]
-        doubts = {"warnings": list(self.warnings), "left_out": list(self.left_out)}
+        parts, doubts = [asdict(p) for p in self.parts], {"warnings": [*self.warnings], "left_out": [*self.left_out]}
         return {**said, "parts": parts, "unused_files": self.unused, **doubts}
 
     def table(self) -> list[str]:
@@ -280,6 +279,9 @@ def _options(
         found["mass"] = repr(folder.person.mass)
     if command == "ik" and "calibration" not in typed:
         warnings += _of_the_calibration(folder, trial, found)
+    if command in ("id", PLANAR) and trial.rival_loads and not {"loads", "plates"} & typed:
+        names = " and ".join(file.name for file in trial.rival_loads)
+        raise InputError(folder.root, "", f"{names} are loads of one trial", "leave one there, or name it with `loads`")
     if command == PLANAR:
         warnings += _of_the_plane(folder, trial, typed, found)
     if command == "id" and not {"loads", "plates"} & typed:
@@ -287,7 +289,8 @@ def _options(
         if trial.loads is not None:
             found["loads"] = str(trial.loads)
         else:
-            warnings.append(f"{folder.kind}: no ground reaction belongs to {trial.name}: nothing but gravity acts")
+            what = f"no ground reaction belongs to {trial.name}: nothing but gravity acts{_perhaps(folder)}"
+            warnings.append(f"{folder.kind}: {what}")
     return found, warnings
 
 
@@ -310,19 +313,28 @@ def _of_the_plane(folder: ToolFolder, trial: FolderTrial, typed: frozenset[str],
     if "plates" in typed:
         return []
     if trial.loads is None:
-        return [f"{folder.kind}: no plates belong to {trial.name}: its study follows coordinates alone; else `plates`"]
+        alone = f"no plates belong to {trial.name}: its study follows coordinates alone; else `plates`"
+        return [f"{folder.kind}: {alone}{_perhaps(folder, trial.forces)}"]
     found["plates"] = str(read_external_loads(trial.loads)[0])
     return []
+
+
+def _perhaps(folder: ToolFolder, forces: tuple[Path, ...] = ()) -> str:
+    """Files that may hold what acts on a trial, by what they hold, for the end of a warning."""
+    names = tuple(f.name for f in (*forces, *filter(may_hold_loads, folder.unclaimed)))
+    return f"; perhaps in {listed(names)} (`loads` for .xml, `plates` for .mot)" if names else ""
 
 
 def _refuse_unused_plates(trial: FolderTrial) -> None:
     """InputError where the trial has forces of the ground, of which the folder does not say what stands there."""
     if trial.loads is not None:
         return
-    if trial.forces is not None:
+    if trial.forces:
         what = "holds forces of the ground, and the folder does not say on which bodies they act"
-        remedy = f"give `loads` (OpenSim's .xml), or `plates` {trial.forces} `plate` NAME=calcn_r"
-        raise InputError(trial.forces, "", what, remedy)
+        remedy = (
+            f"give `loads` (OpenSim's .xml), or `plates` {' or '.join(map(str, trial.forces))} `plate` NAME=calcn_r"
+        )
+        raise InputError(trial.forces[0], "", what, remedy)
     if trial.markers is None or trial.markers.suffix.lower() != ".c3d":
         return
     count = sum(name.startswith("force_") for name in read_c3d_plates(trial.markers))

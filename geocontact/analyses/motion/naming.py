@@ -17,7 +17,8 @@ from scipy.spatial.transform import RigidTransform
 from geocontact.analyses.frame.collector import reserve
 from geocontact.data.errors import InputError
 from geocontact.data.multibody.body_places import PLACES, Side
-from geocontact.data.multibody.marker_sets import KEYPOINTS, MARKER_SETS, normalised
+from geocontact.data.multibody.marker_labels import normalised
+from geocontact.data.multibody.marker_sets import KEYPOINTS, MARKER_SETS
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Marker, Multibody
 from geocontact.dynamics.inverse_kinematics import FEWEST

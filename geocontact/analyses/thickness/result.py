@@ -96,12 +96,13 @@ class ThicknessResult(Result):
         return {REPORT: thickness_page(self.layered.outer, self.layered.inner, self.found, self.title, self.sentences)}
 
     def write_files(self, folder: Path) -> None:
-        """OUTER for ParaView besides."""
+        """OUTER for ParaView besides; faces without a thickness have NaN there, as in the table."""
         if self.options.paraview:
             outer, f = self.layered.outer, self.found
             count = len(outer.faces)
             values = {
-                f"thickness {words} [mm]": on_faces(f, getattr(f, name) * MM, count) for name, words in MEASURES.items()
+                f"thickness {words} [mm]": on_faces(f, getattr(f, name) * MM, count, np.nan)
+                for name, words in MEASURES.items()
             }
             write_faces_vtp(folder / "thickness.vtp", outer.vertices, outer.faces, values, f"geocontact {VERSION}")
         super().write_files(folder)
@@ -148,7 +149,7 @@ def run(given: Layered, o: ThicknessOptions) -> ThicknessResult:
 
 
 FEW = 0.95
-"""Share of the area that has a thickness, below which a warning says so."""
+"""Share of the area that has a thickness, or lies inside INNER, below which a warning says so."""
 APART, MUCH = 1.25, 0.05
 """Times the nearest distance from which on the one along the normal is another thickness, and the share of the area
 that may be so without a warning."""
@@ -165,10 +166,12 @@ def _doubt(given: Layered, found: ThicknessMap) -> None:
         reserve(f"{outer}: lines go along its normals, as {inner} lies there; its faces are wound inwards")
     inside = float(found.area[found.inside].sum()) / whole
     if inside > 0.0:
-        reserve(f"{inside:.1%} of the area of {outer} lies inside {inner}: the surfaces cross, there is no thickness")
-    if found.covered < FEW:
+        where = "inside" if given.inner.closed else "beyond"
+        reserve(f"{inside:.1%} of the area of {outer} lies {where} {inner}: the surfaces cross, there is no thickness")
+    nowhere = 1.0 - found.covered - inside
+    if nowhere > 1.0 - FEW:
         reserve(
-            f"{1.0 - found.covered:.0%} of the area of {outer} meets {inner} nowhere within {found.most * MM:g} mm "
+            f"{nowhere:.0%} of the area of {outer} meets {inner} nowhere within {found.most * MM:g} mm "
             "along its normal; choose the faces of the layer with `region`, or give a larger `most`"
         )
     on_it = float(found.area[found.nearest < TOUCHING].sum()) / whole

@@ -28,10 +28,12 @@ def thickness_curves(found: ThicknessMap) -> CurveSheet:
     return CurveSheet([Curves("Thickness", "mm", curves, over=over, words=words)])
 
 
-def on_faces(found: ThicknessMap, values: Float[np.ndarray, " k"], faces: int) -> Float[np.ndarray, " f"]:
-    """Values of the faces that count among all; 0 where there is none."""
-    every = np.zeros(faces)
-    every[found.face] = np.nan_to_num(values)
+def on_faces(
+    found: ThicknessMap, values: Float[np.ndarray, " k"], faces: int, none: float = 0.0
+) -> Float[np.ndarray, " f"]:
+    """Values of the faces that count among all; `none` where there is none."""
+    every = np.full(faces, none)
+    every[found.face] = np.where(np.isnan(values), none, values)
     return every
 
 

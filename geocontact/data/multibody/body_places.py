@@ -2,9 +2,10 @@
 
 Places lie on the skin of an adult, in the right segment's frame of OpenSim's gait2392 (x forward, y up, z to the
 right), rounded to 5 mm from the markers of gait2354, subject01 (Delp et al. 2007), of LaiUhlrich2022 (Uhlrich et al.
-2023) and of pyCGM2's set for gait2392 (Leboeuf et al. 2019). Own markers of the first two models lie 17 mm from them in
-the median and 65 mm at most (left thigh of subject01; bony places 54 mm, the posterior iliac spines), and so does a
-subject: a place is where a marker begins, before a static pose moves it.
+2023) and of pyCGM2's set for gait2392 (Leboeuf et al. 2019); the iliac crest 15 mm outside of the internal oblique's
+origin on subject01. Own markers of the first two models lie 17 mm from them in the median and 65 mm at most (left thigh
+of subject01; bony places 54 mm, the posterior iliac spines), and so does a subject: a place is where a marker begins,
+before a static pose moves it.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ def _soft(words: str, segment: str, at: tuple[float, float, float] | None = None
 PLACES: Mapping[str, Place] = {
     "asis": Place("anterior superior iliac spine", "pelvis", (0.02, 0.02, 0.13)),
     "psis": Place("posterior superior iliac spine", "pelvis", (-0.18, 0.05, 0.06)),
+    "iliac_crest": Place("top of the iliac crest", "pelvis", (-0.045, 0.075, 0.135)),
     "sacrum": Place("middle of the posterior superior iliac spines", "pelvis", (-0.18, 0.05, 0.0)),
     "hip_centre": Place("hip joint centre", "pelvis", (-0.07, -0.065, 0.085)),
     "sacrum_cluster": _soft("pelvis, no named place", "pelvis"),

@@ -1,116 +1,23 @@
 """Marker sets of gait laboratories: which place of the body each label names.
 
-Labels are those of public files and manuals; `MarkerSet.source` says which, and whether a file was compared. `{s}` in a
-label stands for the side, r or l; case and the signs . _ - and blanks do not count.
+Labels are those of public files and manuals; `MarkerSet.source` says which, and whether a file was compared.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-from geocontact.data.multibody.body_places import Side
-
-
-@dataclass(frozen=True)
-class MarkerSet:
-    """A set of labels.
-
-    Parameters
-    ----------
-    words
-        As people call it.
-    source
-        Paper or public file of the labels.
-    labels
-        Key of the place by label; alternatives for one place are several labels.
-    """
-
-    words: str
-    source: str
-    labels: Mapping[str, str]
-
-    def places(self) -> dict[str, tuple[str, Side]]:
-        """Place and side by normalised label."""
-        found: dict[str, tuple[str, Side]] = {}
-        for label, place in self.labels.items():
-            for side in "rl" if "{s}" in label else ("",):
-                found[normalised(label.replace("{s}", side))] = place, side
-        return found
-
-
-def normalised(label: str) -> str:
-    """A label as it is compared: without the subject before a colon, in lower case, without . _ - and blanks.
-
-    >>> normalised("JW:R.ASIS"), normalised("r_ankle_study")
-    ('rasis', 'ranklestudy')
-    """
-    return re.sub(r"[\s._-]", "", label.rpartition(":")[2].lower())
-
-
-_LEG = {
-    "{s}ASI": "asis",
-    "{s}THI": "thigh_wand",
-    "{s}KNE": "knee_lateral",
-    "{s}ANK": "ankle_lateral",
-    "{s}HEE": "heel",
-    "{s}TOE": "metatarsal_2",
-}
-_PLUG_IN = {**_LEG, "{s}PSI": "psis", "{s}TIB": "shank_wand"}
-_CGM2 = {
-    **_PLUG_IN,
-    "{s}THAP": "thigh_proximal",
-    "{s}THAD": "thigh_distal",
-    "{s}TIAP": "shank_proximal",
-    "{s}TIAD": "shank_distal",
-    "{s}KNM": "knee_medial",
-    "{s}MED": "ankle_medial",
-}
-_TRIPLES = {
-    f"{{s}}{body}{where}": f"{place}_{where.lower()}"
-    for body, place in (("Thigh", "thigh"), ("Shank", "shank"))
-    for where in ("Upper", "Front", "Rear")
-}
-_CLUSTERS = {
-    f"{{s}}{name}{k}": place
-    for name, place in (("TH", "thigh_cluster"), ("SK", "shank_cluster"), ("FT", "foot_cluster"))
-    for k in range(1, 5)
-}
-_GRAND = {
-    f"{{s}}{body}{where}": place
-    for body, place in (("Thigh", "thigh_cluster"), ("Shank", "shank_cluster"))
-    for where in ("Superior", "Inferior", "Lateral")
-}
-_CORTEX = {
-    "{s}.ASIS": "asis",
-    "{s}.PSIS": "psis",
-    "{s}.Knee": "knee_lateral",
-    "{s}.Knee.Medial": "knee_medial",
-    "{s}.Ankle": "ankle_lateral",
-    "{s}.Ankle.Medial": "ankle_medial",
-    "{s}.Heel": "heel",
-}
-_OPENCAP = {
-    f"{{s}}{name}study": place
-    for name, place in {
-        "ASIS": "asis",
-        "PSIS": "psis",
-        "knee": "knee_lateral",
-        "mknee": "knee_medial",
-        "ankle": "ankle_lateral",
-        "mankle": "ankle_medial",
-        "toe": "metatarsal_2",
-        "5meta": "metatarsal_5",
-        "calc": "heel",
-        "shoulder": "acromion",
-        "lelbow": "elbow_lateral",
-        "melbow": "elbow_medial",
-        "lwrist": "wrist_radial",
-        "mwrist": "wrist_ulnar",
-        "HJC": "hip_centre",
-    }.items()
-}
+from geocontact.data.multibody.marker_labels import (
+    CGM2,
+    CLUSTERS,
+    CORTEX,
+    GRAND,
+    LEG,
+    OPENCAP,
+    PLUG_IN,
+    TRIPLES,
+    MarkerSet,
+)
 
 KEYPOINTS = "opencap-keypoints"
 """Set whose joints are centres, found in video; markers of these names may be on the skin."""
@@ -119,13 +26,13 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
     "plug-in-gait-lower": MarkerSet(
         "Plug-in Gait, lower body",
         "Davis et al. 1991, Kadaba et al. 1990; labels as in pyCGM2, CGM1.translators",
-        _PLUG_IN,
+        PLUG_IN,
     ),
     "plug-in-gait": MarkerSet(
         "Plug-in Gait, full body",
         "Vicon's manual of Plug-in Gait; labels as in pyCGM2, CGM2_5.translators",
         {
-            **_PLUG_IN,
+            **PLUG_IN,
             "{s}SHO": "acromion",
             "{s}UPA": "arm",
             "{s}ELB": "elbow_lateral",
@@ -142,12 +49,12 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
             "RBAK": "back_offset",
         },
     ),
-    "cgm2.3": MarkerSet("CGM2.1 to 2.3", "Leboeuf et al. 2019; pyCGM2, cgm2_3-markerset.xml", _CGM2),
+    "cgm2.3": MarkerSet("CGM2.1 to 2.3", "Leboeuf et al. 2019; pyCGM2, cgm2_3-markerset.xml", CGM2),
     "cgm2.4": MarkerSet(
         "CGM2.4 and 2.5",
         "Leboeuf et al. 2019; pyCGM2, CGM2_5.translators (beside SMH, the place of TOE is not stated there)",
         {
-            **_CGM2,
+            **CGM2,
             "{s}FMH": "metatarsal_1",
             "{s}SMH": "metatarsal_2",
             "{s}VMH": "metatarsal_5",
@@ -158,7 +65,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Helen Hayes, labels of three and four letters",
         "Kadaba et al. 1990; BMClab's public Gait.c3d",
         {
-            **_LEG,
+            **LEG,
             "VSAC": "sacrum",
             "{s}SHA": "shank_wand",
             "{s}SHO": "acromion",
@@ -171,7 +78,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Cleveland Clinic with three markers on each thigh and shank, as OpenSim's gait2354 and gait2392",
         "opensim-models, gait2354_Scale_MarkerSet.xml",
         {
-            **_TRIPLES,
+            **TRIPLES,
             "{s}ASIS": "asis",
             "V.Sacral": "sacrum",
             "{s}Knee.Lat": "knee_lateral",
@@ -198,7 +105,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Grand challenge of knee loads, patellae and triples",
         "Fregly et al. 2012; public .trc and .c3d of subjects JW and DM",
         {
-            **_GRAND,
+            **GRAND,
             "{s}Asis": "asis",
             "{s}Psis": "psis",
             "Sacral": "sacrum",
@@ -268,8 +175,8 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Istituto Ortopedico Rizzoli, labels of BMClab in Cortex",
         "Leardini et al. 2007; BMClab's public walk.trc, the protocol of Fukuchi et al. 2018",
         {
-            **_CORTEX,
-            "{s}.Iliac.Crest": "sacrum_cluster",
+            **CORTEX,
+            "{s}.Iliac.Crest": "iliac_crest",
             "{s}.GTR": "trochanter",
             "{s}.HF": "fibula_head",
             "{s}.TT": "tuberosity",
@@ -282,7 +189,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Helen Hayes, labels of Motion Analysis' Cortex",
         "Kadaba et al. 1990; labels of Cortex as public readers of .trc list them, medial ones as in BMClab's walk.trc",
         {
-            **_CORTEX,
+            **CORTEX,
             "V.Sacral": "sacrum",
             "{s}.Thigh": "thigh_wand",
             "{s}.Shank": "shank_wand",
@@ -333,7 +240,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "OpenCap's anatomical markers",
         "Uhlrich et al. 2023; public model LaiArnoldModified2017",
         {
-            **_OPENCAP,
+            **OPENCAP,
             "C7study": "c7",
             **{f"{{s}}thigh{k}study": "thigh_cluster" for k in (1, 2, 3)},
             **{f"{{s}}sh{k}study": "shank_cluster" for k in (1, 2, 3)},
@@ -391,7 +298,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
         "Rajagopal et al. 2016; labels of markers_walk.trc, example3DWalking of opensim-core, with the toe's "
         "marker 0.3 m from the heel's",
         {
-            **{label: place for label, place in _CORTEX.items() if "Medial" not in label},
+            **{label: place for label, place in CORTEX.items() if "Medial" not in label},
             "S2": "sacrum",
             "{s}.Toe": "toe_tip",
             "{s}.MT5": "metatarsal_5",
@@ -408,7 +315,7 @@ MARKER_SETS: Mapping[str, MarkerSet] = {
     "cast-clusters": MarkerSet(
         "Clusters on thigh, shank and foot, as in CAST: no anatomical place",
         "Cappozzo et al. 1995; labels of public Eb015pr.c3d",
-        {**_CLUSTERS, **{f"PV{k}": "sacrum_cluster" for k in range(1, 5)}},
+        {**CLUSTERS, **{f"PV{k}": "sacrum_cluster" for k in range(1, 5)}},
     ),
     "isb-trunk": MarkerSet(
         "Trunk of the ISB", "Wu et al. 2005", {"C7": "c7", "T8": "t8", "IJ": "incisura", "PX": "xiphoid"}

@@ -2,9 +2,10 @@
 
 A measurement is written as `scale` takes it, with places in the stead of markers: femur_r=hip_centre_r/knee_lateral_r.
 Weights are those of the sources, by place; 0 is a marker that the source leaves out, of the moving trial because it is
-taken off, of the static one because it is moved to where it was seen. Coordinates near which a source keeps its own
-example's static pose (Hamner: hips, ankles and arms; OpenCap: 0.1 on hips, knees, ankles and trunk) are left out: they
-are another person's.
+taken off, of the static one because it is moved to where it was seen. Two deviations: coordinates that Hamner keeps
+near the static pose of its own example (hips, ankles and arms) are left out, as they are another person's; and so is
+the neutral pose near which OpenCap keeps everybody (0 at hips, knees, ankles and trunk with weight 0.1, a marker having
+1 to 60), so that angles come from the markers alone.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,6 +16,8 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.opensim.osim_xml import is_true, label, read_document, text_of
 
 GROUND = ("ground", "/ground", "")
+BEGINNING = 20_000
+"""Bytes of a file in which its kind stands."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,15 @@ def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[External
     if not data:
         raise InputError(file, "", "names no <datafile>", "name the .mot file of the plates")
     return Path(file).parent / data, tuple(_load(file, e) for e in loads)
+
+
+def may_hold_loads(file: Path) -> bool:
+    """Whether the beginning of an .xml has external loads, or that of a .mot columns of a force (…_vx)."""
+    with file.open("rb") as opened:
+        text = opened.read(BEGINNING).decode("latin-1")
+    if file.suffix.lower() == ".xml":
+        return "<ExternalLoads" in text
+    return re.search(r"(?:^|_)(?:v|f)x\s", text, re.IGNORECASE | re.MULTILINE) is not None
 
 
 def _load(file: str, element: Element) -> ExternalLoad:

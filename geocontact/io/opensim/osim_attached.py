@@ -21,6 +21,8 @@ def write_with_meshes(
 ) -> None:
     """Write the source again with a mesh more on some bodies; all else stays as it is written.
 
+    Meshes of the same names, which an earlier copy has, are replaced, on whichever bodies they are.
+
     Parameters
     ----------
     attached
@@ -31,8 +33,14 @@ def write_with_meshes(
     Raises
     ------
     InputError
-        For a body that the model does not have. A joint to ground needs OpenSim 4, where the ground is no body.
+        For a body that the model does not have, and one of OpenSim 3 that is drawn in another frame. A joint to ground
+        needs OpenSim 4, where the ground is no body.
     """
+    ElementTree(with_meshes(source, attached, scale)).write(target, encoding="UTF-8", xml_declaration=True)
+
+
+def with_meshes(source: str | PathLike[str], attached: Mapping[str, tuple[str, str]], scale: float) -> Element:
+    """The document that `write_with_meshes` writes; the same InputErrors."""
     file = fspath(source)
     root = read_document(source, "OpenSim model")
     model = root if root.tag == "Model" else root.find("Model")
@@ -41,6 +49,10 @@ def write_with_meshes(
     version = root.get("Version", "")
     old = version.isdecimal() and int(version) < _OLD
     bodies = {e.get("name", ""): e for e in model.iter() if e.tag in ("Body", "Ground")}
+    names = {name for name, _ in attached.values()}
+    for holder in list(model.iter()):
+        for child in [e for e in holder if e.tag in ("Mesh", "DisplayGeometry") and e.get("name") in names]:
+            holder.remove(child)
     for body, (name, mesh) in attached.items():
         if body not in bodies:
             raise InputError(file, "", f"no body '{body}'", f"bodies are: {listed(tuple(bodies))}")
@@ -48,7 +60,7 @@ def write_with_meshes(
             _show_old(file, bodies[body], name, mesh, scale)
         else:
             _attach(bodies[body], name, mesh, scale)
-    ElementTree(root).write(target, encoding="UTF-8", xml_declaration=True)
+    return root
 
 
 def _attach(body: Element, name: str, mesh: str, scale: float) -> None:

@@ -73,8 +73,8 @@ class FolderTrial:
     """Files of one trial.
 
     `model` is one of its own, `static` whether its name says that somebody stands, `rival` a second file of its
-    markers, which leaves it open which is meant; `forces` is a table of ground reactions, which does not say on which
-    bodies they act.
+    markers, which leaves it open which is meant; `forces` are tables of ground reactions, which do not say on which
+    bodies they act; `rival_loads` are all files of its loads where there are several, and `loads` is None then.
     """
 
     name: str
@@ -85,7 +85,8 @@ class FolderTrial:
     static: bool = False
     note: str = ""
     rival: Path | None = None
-    forces: Path | None = None
+    forces: tuple[Path, ...] = ()
+    rival_loads: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -108,6 +109,8 @@ class ToolFolder:
         Mass and height, where a file says them.
     unused
         How many other files there are.
+    unclaimed
+        Tables and settings (.mot, .xml) beside the trials of a laboratory whose names belong to none of them.
     """
 
     kind: str
@@ -117,6 +120,7 @@ class ToolFolder:
     generic: tuple[Path, ...] = ()
     person: FolderPerson | None = None
     unused: int = 0
+    unclaimed: tuple[Path, ...] = ()
 
 
 def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
@@ -129,11 +133,11 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
     if any(file.suffix.lower() == ".b3d" for file in _files(root)):
         raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
     inside = sorted({file.parent for file in _files(root) if file.suffix.lower() in (".trc", ".c3d")})
-    names = listed(tuple(f"{place.as_posix()}/" for place in inside))
+    perhaps = f": perhaps {listed(tuple(f'{place.as_posix()}/' for place in inside))}" if inside else ""
     remedy = (
         "name one of OpenCap, AddBiomechanics or Pose2Sim, or one with .trc or .c3d, or with a model and its motions"
     )
-    raise InputError(root, "", "is no folder of trials", f"{remedy}{f': perhaps {names}' if names else ''}")
+    raise InputError(root, "", "is no folder of trials", f"{remedy}{perhaps}")
 
 
 B3D = (
@@ -228,30 +232,53 @@ def _rank(stem: str, augmented: bool) -> int:
 def _laboratory(root: Path) -> ToolFolder | None:
     recorded, exported = _by_stem(root, ".c3d"), _by_stem(root, ".trc")
     markers, models = {**exported, **recorded}, tuple(_named(root, ".osim"))
-    forces = {name: file for tail in FORCES for name, file in _by_stem(root, ".mot", tail).items()}
-    others = {name: file for name, file in _by_stem(root, ".mot").items() if file not in forces.values()}
+    others = {f.stem: f for f in _named(root, ".mot") if _trial_of_loads(f) is None}
     motions = {**others, **_by_stem(root, ".mot", "_ik")}
     names = markers or ({file.stem.removesuffix("_ik") for file in others.values()} if models else {})
     if not names:
         return None
-    loads = {name: file for tail in FORCES for name, file in _by_stem(root, ".xml", tail).items()}
+    loads, forces = (_loads_by_trial(_named(root, ending), sorted(names)) for ending in (".xml", ".mot"))
     trials = [
         FolderTrial(
             name,
             markers.get(name),
             motions.get(name),
-            loads.get(name),
+            loads[name][0] if len(loads[name]) == 1 else None,
             static=_is_static(name),
             rival=exported.get(name) if name in recorded else None,
-            forces=forces.get(name),
+            forces=forces[name],
+            rival_loads=loads[name] if len(loads[name]) > 1 else (),
         )
         for name in sorted(names)
     ]
-    return ToolFolder(TRIALS, root, tuple(trials), models)
+    used = set().union(*map(_files_of, trials))
+    free = tuple(f for ending in (".xml", ".mot") for f in _named(root, ending) if f not in used)
+    return ToolFolder(TRIALS, root, tuple(trials), models, unclaimed=free)
 
 
-FORCES = ("_external_loads", "_external_forces", "_forces", "_grf", "_GRF")
-"""Ends of names of loads: OpenSim's external loads (.xml), ground reactions alone (.mot); the last one counts."""
+_LOADS = r"external_?loads|external_?forces|forces|grf"
+"""OpenSim's external loads (.xml), or ground reactions alone (.mot): before or after the name of a trial, or alone."""
+
+
+def _trial_of_loads(file: Path) -> str | None:
+    """Trial whose loads a file's name says it holds, in lower case; empty where it names none, None for other files.
+
+    >>> [_trial_of_loads(Path(name)) for name in ("walk_Grf.xml", "grf_walk.mot", "External_Loads.xml", "walk.mot")]
+    ['walk', 'walk', '', None]
+    """
+    pattern = rf"(?:{_LOADS})(?:_(?:{_LOADS}))?|(.+)_(?:{_LOADS})|(?:{_LOADS})_(.+)"
+    found = re.fullmatch(pattern, file.stem.lower())
+    return None if found is None else found[1] or found[2] or ""
+
+
+def _loads_by_trial(files: list[Path], names: list[str]) -> dict[str, tuple[Path, ...]]:
+    """Loads of each trial by their names; those that name none belong to the only trial that is not static."""
+    moving = [name for name in names if not _is_static(name)]
+    of = {file: _trial_of_loads(file) for file in files}
+    found = {name: tuple(f for f in files if of[f] == name.lower()) for name in names}
+    if len(moving) == 1 and not found[moving[0]]:
+        found[moving[0]] = tuple(f for f in files if of[f] == "")
+    return found
 
 
 def _is_static(name: str) -> bool:
@@ -295,10 +322,13 @@ def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
 
 def _count_of_others(found: ToolFolder) -> int:
     used = {*found.models[:1], *found.generic[:1]} | ({found.person.file} if found.person else set())
-    for trial in found.trials:
-        own = (trial.markers, trial.rival, trial.coordinates, trial.loads, trial.model, trial.forces)
-        used |= {each for each in own if each is not None}
+    used = used.union(*map(_files_of, found.trials))
     return sum(file not in used for file in _files(found.root))
+
+
+def _files_of(trial: FolderTrial) -> set[Path]:
+    own = (trial.markers, trial.rival, trial.coordinates, trial.loads, trial.model)
+    return {each for each in (*own, *trial.forces, *trial.rival_loads) if each is not None}
 
 
 def _session(file: Path) -> FolderPerson | None:

@@ -20,6 +20,8 @@ from tests.analyses.area.calls import area, pressed
 from tests.cli.calls import FEMUR, INSERT, MESHES, PLATE, SPHERE, call, gait, poses, stl, storage, unpictured
 from tests.cli.calls import written as saved
 from tests.elsewhere import Elsewhere
+from tests.io.test_osim import VISIBLE, model3
+from tests.io.test_osim import written as write_model
 
 LAYER = {"modulus": gc.MPa(500), "poisson": 0.46, "thickness": gc.mm(8), "piece": gc.mm(1)}
 QUICK = {"rule": "clip"}
@@ -347,6 +349,33 @@ def test_opensim_opens_the_copy_and_moves_the_mesh_as_the_model_for_febio(tmp_pa
         theirs = mesh @ X[:3, :3].T + X[:3, 3] * 1e3
         np.testing.assert_allclose(theirs.min(axis=0), feb.placed(k).min(axis=0), atol=1e-4)
         np.testing.assert_allclose(theirs.max(axis=0), feb.placed(k).max(axis=0), atol=1e-4)
+
+
+def test_a_copy_that_is_exported_again_has_each_mesh_once_and_is_not_replaced(tmp_path: Path) -> None:
+    """The command refuses its own folder before it computes; Python knows the folder when it writes."""
+    copy = exported_model(tmp_path) / "knee.osim"
+    before = copy.read_bytes()
+    given = {"osim": copy, "joint": "knee_r", "moving_body": "parent", "export": ("opensim",)}
+    result = area(FEMUR, INSERT, storage(tmp_path), **given, **QUICK)
+    again = ET.parse(written(result, tmp_path / "second") / "knee.osim").getroot()
+    names = sorted(name for e in again.iter("Mesh") if (name := e.get("name")).startswith("geocontact_"))
+    assert names == ["geocontact_fixed", "geocontact_moving"]
+    with pytest.raises(InputError, match="is a copy in `out`"):
+        result.write(tmp_path / "out")
+    joint = ("--osim", copy, "--joint", "knee_r", "--moving", "parent", "--export", "opensim")
+    words = ("area", FEMUR, INSERT, "--unit", "mm", "--motion", storage(tmp_path), *joint)
+    refused = call(*words, "--out", tmp_path / "out")
+    assert refused.code == 2 and "is a copy in --out" in refused.err, refused.err
+    assert copy.read_bytes() == before
+
+
+def test_a_model_that_cannot_take_the_meshes_is_refused_before_the_motion_is_read(tmp_path: Path) -> None:
+    """OpenSim 3 draws this body in another frame; the motion, which is read next, is no table."""
+    model = write_model(tmp_path, model3("PinJoint", "", ("a",), "false", VISIBLE))
+    no_motion = tmp_path / "motion.mot"
+    no_motion.write_text("no table")
+    with pytest.raises(InputError, match="drawn in a frame that is not its own"):
+        area(FEMUR, INSERT, no_motion, export=("opensim",), osim=model, joint="j", **QUICK)
 
 
 @pytest.mark.parametrize(
