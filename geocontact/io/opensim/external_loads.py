@@ -14,6 +14,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.io.opensim.osim_xml import is_true, label, read_document, text_of
+from geocontact.io.text.file_preflight import open_file
 
 GROUND = ("ground", "/ground", "")
 BEGINNING = 20_000
@@ -67,8 +68,11 @@ def read_external_loads(path: str | PathLike[str]) -> tuple[Path, tuple[External
 
 def may_hold_loads(file: Path) -> bool:
     """Whether the beginning of an .xml has external loads, or that of a .mot columns of a force (…_vx)."""
-    with file.open("rb") as opened:
-        text = opened.read(BEGINNING).decode("latin-1")
+    try:
+        with open_file(file) as opened:
+            text = opened.read(BEGINNING).decode("latin-1")
+    except InputError:
+        return False  # it is no input of the run
     if file.suffix.lower() == ".xml":
         return "<ExternalLoads" in text
     return re.search(r"(?:^|_)(?:v|f)x\s", text, re.IGNORECASE | re.MULTILINE) is not None
