@@ -120,7 +120,7 @@ def _without_pauses(time: Float[np.ndarray, " t"], there: Bool[np.ndarray, " t"]
     steps = np.diff(time[ends])
     if np.count_nonzero(steps > longest) < FEW:
         return time
-    return np.interp(time, time[ends], np.concatenate([[0.0], np.cumsum(np.minimum(steps, longest))]))
+    return np.asarray(np.interp(time, time[ends], np.concatenate([[0.0], np.cumsum(np.minimum(steps, longest))])))
 
 
 def _placed(
