@@ -41,7 +41,7 @@ LIMITS = {
     "how-to/my_prosthesis.md": 310,
     "how-to/my_simulator.md": 610,
     "how-to/my_study.md": 290,
-    "how-to/open_or_closed.md": 450,
+    "how-to/open_or_closed.md": 440,
     "how-to/opensim_motion.md": 380,
     "how-to/other_programs.md": 260,
     "how-to/own_model.md": 1710,
