@@ -236,6 +236,11 @@ def _imported(module: ModuleType, constant: Constant) -> list[str]:
     """What a module calls a constant that it has from another one."""
     if getattr(module, "__file__", None) is None or not vars(module).keys() & {constant.name}:
         return []
+    return [own for where, name, own in _imports(module) if (where, name) == (constant.module, constant.name)]
+
+
+@cache
+def _imports(module: ModuleType) -> list[tuple[str | None, str, str]]:
+    """From which module, what, and under which name a module imports: read once, as parsing all for each is slow."""
     asked = [node for node in ast.walk(ast.parse(inspect.getsource(module))) if isinstance(node, ast.ImportFrom)]
-    taken = [alias for node in asked if node.module == constant.module for alias in node.names]
-    return [alias.asname or alias.name for alias in taken if alias.name == constant.name]
+    return [(node.module, alias.name, alias.asname or alias.name) for node in asked for alias in node.names]

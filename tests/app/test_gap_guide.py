@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import os
 import subprocess
@@ -33,6 +32,7 @@ from geocontact.systems.elbow import ELBOW
 from geocontact.systems.knee import KNEE
 from tests.app.conftest import Window
 from tests.app.test_window import run_words, until
+from tests.browsers import awaited
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -118,7 +118,7 @@ class Pressed:
 
     def press(self) -> str:
         """What it says when the trials are to be simulated."""
-        asyncio.run(self.guide._simulate())
+        awaited(self.guide._simulate())
         return str(self.guide._said_first.text)
 
 
@@ -152,7 +152,7 @@ def test_all_pages_of_a_run_are_shown() -> None:
     run = SimpleNamespace(pages={"a": "1", "b": "2"}, message="")
     panel = SimpleNamespace(run=run, refresh=lambda: True)
     vars(guide).update(_panels={1: panel}, _first=None, show=lambda *page, beside: shown.append((*page, beside)))
-    asyncio.run(guide._look())
+    awaited(guide._look())
     assert shown == [("a", "1", False), ("b", "2", True)]
 
 

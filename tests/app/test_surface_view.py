@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import io
 import struct
 from base64 import b64decode
@@ -25,6 +24,7 @@ from geocontact.app.surface_view import SurfaceView
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import Window
 from tests.app.test_window import drop, until
+from tests.browsers import awaited
 
 if TYPE_CHECKING:
     from playwright.sync_api import FrameLocator, Page
@@ -159,20 +159,20 @@ def test_a_picture_in_another_unit_is_taken_away(tmp_path: Path, monkeypatch: py
 
     with client.content:
         view = SurfaceView(form, named["fixed"], [named["unit"]], INSERT, tmp_path, str, "up")
-        asyncio.run(view.show())
+        awaited(view.show())
         assert pictures() == ["iframe", *["input"] * 12] and "x [mm]" in words()
-        asyncio.run(view.colour())
+        awaited(view.colour())
         assert len(pictures()) == 13 and len(questions) == 1
         form.values["unit"] = "cm"
-        asyncio.run(view.colour())
+        awaited(view.colour())
         assert pictures() == [] and "the picture was in mm: show it again" in words() and len(questions) == 1
-        asyncio.run(view.show())
+        awaited(view.show())
         assert len(pictures()) == 13 and "x [cm]" in words() and "[mm]" not in words() and "again" not in words()
         changes["page"] = "m"
-        asyncio.run(view.show())
+        awaited(view.show())
         assert pictures() == [] and "the picture was in cm" in words() and len(questions) == 2
         changes["page"], changes["answer"] = "", "in"
-        asyncio.run(view.show())
+        awaited(view.show())
         assert pictures() == [] and "the picture was in m:" in words() and questions[-1]["unit"] == "m"
 
 
