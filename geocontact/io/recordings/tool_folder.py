@@ -132,8 +132,9 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
             return replace(found, unused=_count_of_others(found))
     if any(file.suffix.lower() == ".b3d" for file in _files(root)):
         raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
-    inside = sorted({file.parent for file in _files(root) if file.suffix.lower() in (".trc", ".c3d")})
-    perhaps = f": perhaps {listed(tuple(f'{place.as_posix()}/' for place in inside))}" if inside else ""
+    inside = sorted({file.parent for file in _files(root) if file.suffix.lower() in (".trc", ".c3d")} - {root})
+    names = tuple(f"{place.relative_to(root).as_posix()}/" for place in inside)
+    perhaps = f": perhaps its folder {listed(names)}" if names else ""
     remedy = (
         "name one of OpenCap, AddBiomechanics or Pose2Sim, or one with .trc or .c3d, or with a model and its motions"
     )
