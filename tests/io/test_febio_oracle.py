@@ -120,5 +120,5 @@ def test_meshio_reads_the_model_for_abaqus(tmp_path: Path, pair: RigidPair) -> N
     np.testing.assert_array_equal(mesh.cells[0].data, FLOOR[1])
     np.testing.assert_array_equal(mesh.cells[1].data, BALL[1] + first)
     (some, *_) = mesh.cell_sets["FIXED_FACES"]
-    np.testing.assert_array_equal(some, np.flatnonzero(pair.touching_fixed))
+    np.testing.assert_array_equal(some, np.flatnonzero(pair.touching))
     np.testing.assert_array_equal(mesh.point_sets["FIXED_NODES"], np.arange(first))
