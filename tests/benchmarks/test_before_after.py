@@ -16,7 +16,7 @@ def test_seconds_are_those_of_the_whole_command(tmp_path: Path) -> None:
     assert 0.3 < cpu_seconds(ROOT, words, tmp_path) < 60.0
     assert (tmp_path / "out" / "report.html").is_file()
     with pytest.raises(RuntimeError, match=r"missing\.stl"):
-        cpu_seconds(ROOT, ["fit", "missing.stl", "--shape", "sphere", "--unit", "mm"], tmp_path)
+        cpu_seconds(ROOT, ["fit", "missing.stl", "--shape", "sphere", "--unit", "mm", "--out", "o"], tmp_path)
 
 
 def test_rows_are_medians_and_their_ratio() -> None:
