@@ -20,8 +20,8 @@ def test_parts_add_up_to_the_whole(tmp_path: Path) -> None:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     found = seconds_of(["fit", str(FEMUR), "--shape", "sphere", "--unit", "mm", "--out", "out"], tmp_path)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime  # with the end of the process
-    assert 0.8 * took < found["whole"] <= took
+    took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime  # with begin and end of the process
+    assert 0.6 * took < found["whole"] <= took
     assert sum(found[part] for part in PARTS) == pytest.approx(found["whole"], abs=1e-9)
     assert min(found[part] for part in PARTS) >= 0.0
     for part in ("start", "reading", "computing", "figures", "page"):
