@@ -35,7 +35,7 @@ from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import parts
 from geocontact.data.version import VERSION
 from geocontact.io.text.results import CASES
-from geocontact.view.surfaces.points_vtp import write_mat_vtp
+from geocontact.view.surfaces.points_vtp import write_faces_vtp
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -93,7 +93,7 @@ class MatResult(MatFindings):
         """A surface for ParaView besides."""
         named, s = f"geocontact {VERSION}", self.surface
         try:
-            write_mat_vtp(folder / "mat_on_surface.vtp", s.vertices, s.faces, self._on_faces(), named)
+            write_faces_vtp(folder / "mat_on_surface.vtp", s.vertices, s.faces, self._on_faces(), named)
         except InputError as error:
             reserve(str(error))
         super().write_files(folder)

@@ -85,7 +85,7 @@ def write_fit_vtp(
     file.write_bytes(encoded_vtp(body))
 
 
-def write_mat_vtp(
+def write_faces_vtp(
     file: Path,
     vertices: Float[np.ndarray, "n 3"],
     faces: Int[np.ndarray, "m 3"],
@@ -103,33 +103,6 @@ def write_mat_vtp(
     for name, values in numbers.items():
         body.cell_data[name] = values.astype(np.float32)
     body.set_active_scalars(next(iter(numbers)))
-    body.field_data["length unit"] = ["mm"]
-    body.field_data["program"] = [program]
-    file.write_bytes(encoded_vtp(body))
-
-
-def write_faces_vtp(
-    file: Path,
-    vertices: Float[np.ndarray, "n 3"],
-    faces: Int[np.ndarray, "m 3"],
-    fields: Mapping[str, Float[np.ndarray, " m"]],
-    program: str,
-) -> None:
-    """Write positions [mm] with fields of the faces, by name with unit.
-
-    Parameters
-    ----------
-    vertices, faces
-        The surface [m].
-    program
-        Name and version of the program, for the record; ASCII, as VTK's texts are.
-    """
-    require_pyvista()
-    import pyvista
-
-    body = pyvista.PolyData.from_regular_faces((vertices * MM).astype(np.float32), faces)
-    for name, values in fields.items():
-        body.cell_data[name] = values.astype(np.float32)
     body.field_data["length unit"] = ["mm"]
     body.field_data["program"] = [program]
     file.write_bytes(encoded_vtp(body))
