@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+import igl
 import numpy as np
 import pandas as pd
 import pytest
@@ -158,7 +159,7 @@ def middles_of_pieces(parts: int) -> np.ndarray:
 
 
 def triangles_press(feb: Feb, k: int, edge: float | None) -> float:
-    """Penalty times depth times area over the triangles of a .feb [N], depths by trimesh.
+    """Penalty times depth times area over the triangles of a .feb [N], depths by libigl.
 
     At the middles of pieces with edges of at most `edge` [mm], or at the three points of each triangle where FEBio is.
     """
@@ -176,7 +177,7 @@ def triangles_press(feb: Feb, k: int, edge: float | None) -> float:
         areas.append(np.full(len(weights), 0.5 * np.linalg.norm(across) / len(weights)))
     point, area_of = np.vstack(points), np.concatenate(areas)
     near = ((point >= low) & (point <= high)).all(axis=1)
-    depth = trimesh.proximity.signed_distance(moving, point[near])
+    depth = -igl.signed_distance(point[near], moving.vertices.view(np.ndarray), moving.faces.astype(np.int64))[0]
     return float(feb.root.findtext("Contact/contact/penalty")) * float(np.maximum(depth, 0.0) @ area_of[near])
 
 
