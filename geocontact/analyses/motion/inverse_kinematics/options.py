@@ -9,6 +9,7 @@ from typing import Annotated, ClassVar
 from geocontact.analyses.frame.marks import C3dUnit, Excludes, Expression, Requires, Texts, TimeSpan
 from geocontact.analyses.frame.options import Options
 from geocontact.analyses.frame.shared_options import CyclePart
+from geocontact.data.bids_name import BidsName
 from geocontact.data.multibody.joint_angle_forms import JointAngleForm
 from geocontact.data.plausible import GAP
 
@@ -50,6 +51,9 @@ class IkOptions(Options):
         Longest gap [s] over which coordinates that no marker determines are filled by a spline; longer ones stay empty.
     analog
         Write the other analog channels of a .c3d, EMG among them, at their own rate: analog.sto.
+    bids
+        Also write markers and coordinates as a BIDS dataset of motion (folder bids), named by subject, task and, if
+        any, ses, acq, run: sub-P1_task-walk_run-1.
     axes
         Which of the markers' axes are the model's x, y and z: x,z,-y where the laboratory's z is up.
     c3d_unit
@@ -91,8 +95,8 @@ class IkOptions(Options):
     Writes ik.mot (degrees and metres, for OpenSim), markers.csv (distance of each marker from the model),
     MARKERS_ik_marker_errors.sto (squared error, RMS and largest of each frame, as OpenSim has them), segments.csv in
     place of both for segments and sensors (angle and distance of each from the model), knees.csv with `knee`,
-    angles.csv with `joint_angles`, cycles.csv where heel strikes are known, ik.json, report.html (a moving skeleton)
-    and run.json into OUT.
+    angles.csv with `joint_angles`, cycles.csv where heel strikes are known, a dataset in bids with `bids`, ik.json,
+    report.html (a moving skeleton) and run.json into OUT.
     """
 
     markers: Path
@@ -114,6 +118,12 @@ class IkOptions(Options):
     events: Texts = ()
     part: CyclePart | None = None
     analog: bool = False
+    bids: str | None = None
     axes: Expression | None = None
     c3d_unit: C3dUnit = None
     time: TimeSpan | None = None
+
+    def refuse_impossible(self) -> None:
+        """Names that BIDS does not allow."""
+        if self.bids is not None:
+            BidsName.of(self.bids)

@@ -26,6 +26,7 @@ from geocontact.analyses.frame.collector import judge, listener, reserve, result
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.json_file import plain, write_json
 from geocontact.analyses.frame.result import REPORT, Result
+from geocontact.analyses.motion.bids_dataset import FOLDER, write_dataset
 from geocontact.analyses.motion.gait_cycles import cycles_table
 from geocontact.analyses.motion.goodness import goodness_of_poses, of_ends
 from geocontact.analyses.motion.inverse_kinematics.knees import knee_table
@@ -37,6 +38,7 @@ from geocontact.analyses.motion.joint_angles import joint_angles_table, warn_of_
 from geocontact.analyses.motion.marker_tasks import MOVING, MarkerErrors
 from geocontact.analyses.motion.markers import exchange_question, warn_of_tilt
 from geocontact.analyses.motion.panels import printed
+from geocontact.data.bids_name import BidsName
 from geocontact.data.errors import InputError
 from geocontact.data.gait_events import STANCE
 from geocontact.dynamics.exchanged_markers import exchanged_markers
@@ -164,6 +166,9 @@ class IkResult(Result):
         if (analog := self.seen.analog) is not None:
             names = [name.replace(" ", "_") for name in analog.channels]
             write_storage(folder / "analog.sto", analog.time, names, analog.values, title="Analog", degrees=False)
+        if self.options.bids is not None:
+            markers = self.seen.markers if self.seen.segments is None else None
+            write_dataset(folder / FOLDER, BidsName.of(self.options.bids), self.seen.model, self.poses, markers)
         write_json(folder / "ik.json", self.summary)
         super().write_files(folder)
 
@@ -202,6 +207,8 @@ UNTOLD = 1.0 / 3.0  # share of the coordinates beyond which the rest means littl
 def run(seen: KinematicsInputs, o: IkOptions) -> IkResult:
     """Coordinates of every frame, how far the markers are from the model, and what sums them up."""
     tree = tree_of(seen.model)
+    if o.bids is not None and len(seen.markers) < 2:
+        raise InputError(o.markers, "`bids`", "needs a rate, and there is one frame", "give a recording of several")
     began = time.perf_counter()
     with listener().progress("frames", len(seen.markers)) as step:
         try:
