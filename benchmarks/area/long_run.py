@@ -31,7 +31,6 @@ def main() -> None:
     from benchmarks.machine import write_results
     from geocontact.analyses.area.bodies import BRIEF, SENSITIVITY
     from geocontact.geometry.contact_area.area import Refinement
-    from geocontact.geometry.contact_area.warm_up import warm_up
 
     names = ("femoral_component", "tibial_insert")
     femoral, insert = (gc.read_surface(str(MESHES / f"{name}_right_medium.stl"), "mm") for name in names)
@@ -39,7 +38,7 @@ def main() -> None:
     motion = cycle.at(np.linspace(cycle.time[0], cycle.time[-1], options.frames))
     sensitivity = tuple(4.0 * MILLIMETRE * SENSITIVITY)
     settings = gc.Settings((4.0 * MILLIMETRE,), refinement=Refinement(pieces=BRIEF), sensitivity=sensitivity)
-    warm_up()
+    gc.area_evolution(femoral, insert, cycle, settings, workers=1)  # compiles the kernels
     seconds = []
     for _ in range(options.rounds):
         start = time.process_time()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import gc
 import os
 import signal
 import sys
@@ -25,6 +26,8 @@ from geocontact.data.version import VERSION
 HELP = "--help", "-h"
 USAGE_ERROR = 2
 FAILURE = 1
+COLLECT = 100_000
+"""New objects after which Python looks for circles of them: imports and numba's compiler make millions that stay."""
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 OWN = {
@@ -72,6 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 2 for a mistake in the input, 1 for any other failure."""
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in tokens
+    gc.set_threshold(COLLECT)
     signal.signal(signal.SIGTERM, _terminated)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file name that the terminal cannot show costs no result

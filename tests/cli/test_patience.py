@@ -29,6 +29,8 @@ if __name__ == "__main__":
     before = compilations()
     itself.doubled(3)
     print(compilations() - before)
+    if compilations() > before:  # numba keeps no text of what it loads
+        print(sum("cfunc" in text for text in itself.doubled.inspect_llvm().values()))
 """
 
 
@@ -102,7 +104,7 @@ def test_compiling_is_said_where_something_is_compiled(misses: int, monkeypatch:
 
 
 def test_a_kernel_that_the_cache_lacks_is_counted_once(tmp_path: Path) -> None:
-    """In a process with an empty cache it is compiled, in the next one it is loaded."""
+    """In a process with an empty cache it is compiled, without a wrapper for C; in the next one it is loaded."""
     (tmp_path / "doubled.py").write_text(KERNEL, encoding="utf-8")
     places = [str(tmp_path), str(Path(__file__).resolve().parents[2])]
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": os.pathsep.join(places)}
@@ -111,4 +113,4 @@ def test_a_kernel_that_the_cache_lacks_is_counted_once(tmp_path: Path) -> None:
         subprocess.run([sys.executable, "-m", "doubled"], env=environment, capture_output=True, text=True, check=True)
         for _ in range(2)
     ]
-    assert [int(each.stdout) for each in counts] == [1, 0]
+    assert [each.stdout.split() for each in counts] == [["1", "0"], ["0"]]

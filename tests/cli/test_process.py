@@ -147,6 +147,18 @@ def test_a_full_disk_is_one_line_and_leaves_nothing(tmp_path: Path) -> None:
     assert inventory(tmp_path).keys() == {"frames.csv"}
 
 
+def test_a_command_seldom_looks_for_garbage(tmp_path: Path) -> None:
+    """Imports and numba's compiler make objects that stay: with Python's own threshold a first run takes 2 s longer."""
+    program = (
+        "import atexit, gc; seen = []; gc.callbacks.append(lambda phase, _: seen.append(phase)); "
+        "from geocontact.cli.main import main; seen.clear(); atexit.register(lambda: print(f'@{len(seen)}')); main()"
+    )
+    words = ["fit", str(SPHERE), "--shape=sphere", "--unit=mm", f"--out={tmp_path / 'out'}"]
+    ended = subprocess.run([sys.executable, "-c", program, *words], cwd=ROOT, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stderr
+    assert int(ended.stdout.rpartition("@")[2]) < 40, "hundreds at a threshold of 700"
+
+
 def test_module_and_script_are_the_same_program() -> None:
     """The installed command calls what cli.py calls."""
     pyproject = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
@@ -156,18 +168,42 @@ def test_module_and_script_are_the_same_program() -> None:
 
 def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(show, "SILENCE", 0.1)
-    monkeypatch.setattr(area_analysis, "warm_up", lambda: time.sleep(1.0))
+    evolution = area_analysis.area_evolution
+    slow = lambda *given: (time.sleep(1.0), evolution(*given))[1]  # noqa: E731
+    monkeypatch.setattr(area_analysis, "area_evolution", slow)
     monkeypatch.setattr("geocontact.geometry.kernels.compile.compilations", itertools.count().__next__)
     result = area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)))
     (line,) = result.complaints
     assert line.startswith("compiling the distance kernels, once on this machine") and result.code == 0
 
 
+@pytest.mark.parametrize(("height", "called"), [(20.2, False), (19.9, True)])
+def test_a_job_compiles_what_it_calls(height: float, called: bool, tmp_path: Path) -> None:
+    """The search for the deepest point is a quarter of all compilation: only where bodies overlap."""
+    program = (
+        "from geocontact.cli.main import run; import sys; code = run(sys.argv[1:]); "
+        "from geocontact.geometry.kernels.floor import deepest; print(f'@{len(deepest.signatures)}'); sys.exit(code)"
+    )
+    motion = poses(tmp_path, (0, height, 0))
+    words = [
+        "area",
+        str(SPHERE),
+        str(PLATE),
+        "--unit=mm",
+        "--threshold=4",
+        f"--motion={motion}",
+        f"--out={tmp_path / 'out'}",
+    ]
+    ended = subprocess.run([sys.executable, "-c", program, *words], cwd=ROOT, capture_output=True, text=True)
+    assert ended.stdout.rpartition("@")[2].strip() == str(int(called)), ended.stderr
+
+
 @pytest.mark.slow
 def test_many_frames_are_not_mistaken_for_compiling(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Once the kernels are there nothing is said, however long the frames take."""
+    motion = poses(tmp_path, (0, 20, 0), (0, 20.1, 0))
+    area(tmp_path / "first", moving=SPHERE, fixed=PLATE, motion=motion)
     add = DistanceMaps.add
     monkeypatch.setattr(DistanceMaps, "add", lambda *given, **named: (time.sleep(1.0), add(*given, **named))[1])
     monkeypatch.setattr(show, "SILENCE", 1.0)
-    monkeypatch.setattr(area_analysis, "warm_up", lambda: None)
-    done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0), (0, 20.1, 0))))
+    done(area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=motion))

@@ -14,6 +14,7 @@ from geocontact.geometry.contact_area import gap
 from geocontact.geometry.contact_area.area import AS_GIVEN, area_within
 from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.contact_area.gap import Rise
+from geocontact.geometry.kernels.compile import kernel
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.separation import Collider, settle
 from meshes import reference
@@ -100,6 +101,14 @@ def test_depth_in_a_block_is_that_of_linear_programmes(seed, offset):
     assert found == pytest.approx(-lowest, abs=2e-6)
 
 
+@kernel
+def over_face(tree, place, beyond):
+    """Middle and normal of the face at a place, the radius `beyond` the face, and the rise within it."""
+    cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
+    radius = beyond + size_of(tree.leaves, place)
+    return cx, cy, cz, nx, ny, nz, radius, rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True)
+
+
 @pytest.mark.parametrize("name", ["cup", "insert", "femur", "block"])
 def test_no_signed_distance_is_below_the_rise_over_a_face(name):
     """The bound of `kernels.rise`, at points about faces on either side."""
@@ -108,11 +117,9 @@ def test_no_signed_distance_is_below_the_rise_over_a_face(name):
     checked = 0
     for slot in rng.permutation(len(body.faces))[:150]:
         place = known.place[slot]
-        plane = np.array(plane_of(tree.leaves, place))
-        centre, normal = plane[:3], plane[3:]
         for share in (0.3, 1.0):
-            radius = share * known.reach + size_of(tree.leaves, place)
-            rise = rise_of(tree, *plane, radius, True)
+            *plane, radius, rise = over_face(tree, place, share * known.reach)
+            centre, normal = np.array(plane[:3]), np.array(plane[3:])
             points = centre + radius * rng.uniform(-1.0, 1.0, (40, 3))
             bound = (points - centre) @ normal - rise
             holds = np.linalg.norm(points - centre, axis=1) + np.abs(bound) < radius

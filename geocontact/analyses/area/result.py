@@ -62,7 +62,6 @@ from geocontact.geometry.contact_area.comparison import compared, largest_differ
 from geocontact.geometry.contact_area.evolution import FrameContact, Settings, area_evolution
 from geocontact.geometry.contact_area.maps import DistanceMaps
 from geocontact.geometry.contact_area.pose_error import ENDS, AreaUncertainty, area_uncertainty
-from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.loads.pressure_evolution import PressureEvolution
 
 if TYPE_CHECKING:
@@ -217,10 +216,9 @@ def _named(one: MotionResult, file: str) -> str:
 
 def run(bodies: Bodies, o: AreaOptions) -> AreaResult:
     """Every motion after the other."""
-    with listener().preparing():
-        warm_up()
     shared = tuple(current().warnings)
-    motions = tuple(over_motion(bodies, o, name, motion, shared) for name, motion in bodies.motions)
+    with listener().preparing():  # kernels are compiled where the first frame that needs them calls them
+        motions = tuple(over_motion(bodies, o, name, motion, shared) for name, motion in bodies.motions)
     trials = {} if bodies.cutting is None else area_trials(bodies.cutting, motions, bodies.stems)
     return AreaResult(options=o, bodies=bodies, motions=motions, trials=trials)
 

@@ -87,7 +87,8 @@ def _compiled(function: F, inline: Literal["never", "always"], *, wrapped: bool 
     if not os.environ.get("NUMBA_CACHE_DIR"):
         own = Path(inspect.getfile(plain)).parent == HERE
         vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))
-    bare: dict[str, Any] = {} if wrapped else {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    # nothing here is called from C, so no kernel has the wrapper for that
+    bare: dict[str, Any] = {"no_cfunc_wrapper": True, "no_cpython_wrapper": not wrapped}
     compiled = numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline, **bare)(plain)
     _KERNELS.add(compiled)
     return cast(F, compiled)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import LEAF, U
 from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_distances
@@ -22,7 +22,7 @@ from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_dist
 ROUND = 1e-12  # share of the radius that rounding may cost
 
 
-@kernel
+@inner
 def plane_of(leaves, place):
     """Middle (3) and outward unit normal (3) of the triangle at a place; a zero normal where there is no telling."""
     o = offset(place)
@@ -39,7 +39,7 @@ def plane_of(leaves, place):
     )
 
 
-@kernel
+@inner
 def size_of(leaves, place):
     """Largest distance of a corner to the middle of the triangle at a place."""
     o = offset(place)
@@ -49,7 +49,7 @@ def size_of(leaves, place):
     return np.sqrt(max(far2, (x - s) * (x - s) + (y - t) * (y - t)))
 
 
-@kernel
+@inner
 def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
     """What `height_within` gives; when `signed`, infinite as well where what is higher is not outside."""
     height = height_within(tree, cx, cy, cz, nx, ny, nz, radius, radius)

@@ -36,7 +36,6 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned
 from geocontact.analyses.frame.result import REPORT, Result
 from geocontact.data.evolution import MM, MM2
-from geocontact.geometry.contact_area.warm_up import warm_up
 from geocontact.io.text.tables import listed
 from geocontact.view.curves.declared import CurveSheet
 
@@ -142,8 +141,6 @@ class PairsResult(Result):
 
 def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     """Every pair after the other."""
-    with listener().preparing():
-        warm_up()
     if pairs.free:
         reserve(
             f"{o.description}: [[free]] has no effect: bodies stay as recorded; `settle-pairs` lets them come to rest"
@@ -152,7 +149,8 @@ def run(pairs: TouchingBodies, o: PairsOptions) -> PairsResult:
     for body, one, other, whole in counted_twice(pairs.pairs):
         reserve(f"faces of {body} count in {one} and in {other}: where both touch, {whole} them twice")
     shared = tuple(current().warnings)
-    motions = tuple(_evaluated(pair, o, shared) for pair in pairs.pairs)
+    with listener().preparing():
+        motions = tuple(_evaluated(pair, o, shared) for pair in pairs.pairs)
     _say_total(pairs, motions)
     return PairsResult(options=o, pairs=pairs, motions=motions)
 

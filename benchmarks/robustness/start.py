@@ -1,0 +1,83 @@
+"""What each command imports before it reads a file: `python -m benchmarks.robustness.start [COMMAND ...]`.
+
+CPU seconds of a process of its own that imports the command line and the job of a command, as `geocontact COMMAND` does
+before it reads, less those of an empty interpreter; the least of the rounds, since others on the machine only add. With
+each stand the packages that take a tenth of a second each. What a job imports while it runs, such as what draws,
+is not counted. Writes results/start.json.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from benchmarks.machine import ROOT, write_results
+from geocontact.analyses.catalogue import ENTRIES
+
+AIM = 0.6  # CPU s
+HEAVY = (
+    "casadi",
+    "igl",
+    "matplotlib",
+    "numba",
+    "pandas",
+    "scipy.integrate",
+    "scipy.interpolate",
+    "scipy.optimize",
+    "scipy.signal",
+    "scipy.spatial",
+    "scipy.stats",
+    "trimesh",
+    "xarray",
+)
+PROGRAM = """
+import gc, sys
+from geocontact.cli.main import COLLECT
+gc.set_threshold(COLLECT)
+from geocontact.analyses.catalogue import ENTRIES
+next(each for each in ENTRIES if each.command == sys.argv[1]).load_job()
+print(*sorted({each for each in sys.argv[2:] if each in sys.modules}))
+"""
+
+
+def cpu_seconds(program: str, words: Sequence[str] = ()) -> tuple[float, list[str]]:
+    """CPU seconds of a process that runs a program, and the words that it prints; RuntimeError where it fails."""
+    began = os.times()
+    command = [sys.executable, "-c", program, *words]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    ended = os.times()
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr)
+    took = ended.children_user + ended.children_system - began.children_user - began.children_system
+    return took, done.stdout.split()
+
+
+def started(command: str, rounds: int, empty: float) -> dict[str, Any]:
+    """Least CPU seconds that the imports of a command take, and which heavy packages are among them."""
+    runs = [cpu_seconds(PROGRAM, (command, *HEAVY)) for _ in range(rounds)]
+    return {"cpu_s": round(min(took for took, _ in runs) - empty, 2), "heavy": runs[0][1]}
+
+
+def main() -> None:
+    """Measure all commands or those that are named, print and write."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.robustness.start", description=__doc__.splitlines()[0])
+    parser.add_argument("commands", nargs="*", metavar="COMMAND")
+    parser.add_argument("--rounds", type=int, default=2)
+    asked = parser.parse_args()
+    names = asked.commands or [each.command for each in ENTRIES if each.command]
+    found, empty = {}, min(cpu_seconds("")[0] for _ in range(asked.rounds))
+    for name in names:
+        found[name] = started(name, asked.rounds, empty)
+        print(f"| `{name}` | {found[name]['cpu_s']:.2f} | {' '.join(found[name]['heavy'])} |", flush=True)
+    quick = sum(each["cpu_s"] <= AIM for each in found.values())
+    print(f"{quick} of {len(found)} within {AIM} CPU s")
+    figures = {"aim_s": AIM, "commands": found}
+    write_results("start", {"rounds": asked.rounds}, figures, {"numpy", "scipy", "numba", "pandas"})
+
+
+if __name__ == "__main__":
+    main()
