@@ -43,19 +43,19 @@ def _bound(words: Sequence[str], command: str) -> tuple[Options, dict[str, Any]]
     return command_of(entry_of(command)).read(*bound.args, **bound.kwargs), bound.kwargs
 
 
-def _calls(words: Sequence[str]) -> list[list[str]]:
+def _calls(words: Sequence[str]) -> dict[str, list[str]]:
     """What the command line makes of a call: one for each trial where a folder takes the place of the recording.
 
-    Warnings are left to the run.
+    By the names of the trials, "" where no folder does. Warnings are left to the run.
     """
     with redirect_stderr(StringIO()):
         tokens = with_setup(words)
         found = calls_in_folder(tokens, spelling)
-    return [each.tokens for each in found] or [tokens]
+    return {str(each.recognised["trial"]): each.tokens for each in found} or {"": tokens}
 
 
-def expanded(form: Form, out: Path | str) -> Form:
-    """The form with the inputs that a set-up file or a folder stands for, those of its first trial.
+def expanded(form: Form, out: Path | str) -> dict[str, Form]:
+    """The form with the inputs that a set-up file or a folder stands for: by the name of each of its trials, else "".
 
     Raises
     ------
@@ -63,8 +63,8 @@ def expanded(form: Form, out: Path | str) -> Form:
         For a set-up file or a folder that cannot be used.
     """
     if not any(one.name in BEFORE for one in form.fields):
-        return form
-    return Form.of_words(_calls(form.words(out))[0])
+        return {"": form}
+    return {trial: Form.of_words(words) for trial, words in _calls(form.words(out)).items()}
 
 
 def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:
@@ -83,7 +83,7 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
     CycloptsError, InputError
         For words that the command line refuses.
     """
-    calls = _calls(words)
+    calls = list(_calls(words).values())
     lines = ""
     for tokens in calls:
         own = out if len(calls) == 1 else next(word for word in tokens if word.startswith(f"{OUT}=")).partition("=")[2]

@@ -28,13 +28,14 @@ Known = tuple[Path, int, int]
 """A file, its time of change and its size: the same content as before."""
 
 
-def known_file(path: Path) -> Known | None:
-    """A regular file as it is now; None where there is none, or none that may be looked at."""
+def known_file(path: Path, folder: bool = False) -> Known | None:
+    """A regular file as it is now, or a folder where that may be; None where none is that may be looked at."""
     try:
         seen = path.stat()
     except (OSError, ValueError):  # a folder that is closed, a name that is too long or holds a zero
         return None
-    return (path, seen.st_mtime_ns, seen.st_size) if stat.S_ISREG(seen.st_mode) else None
+    fits = stat.S_ISREG(seen.st_mode) or (folder and stat.S_ISDIR(seen.st_mode))
+    return (path, seen.st_mtime_ns, seen.st_size) if fits else None
 
 
 def page_name(surface: Path, unit: str) -> str:

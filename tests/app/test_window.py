@@ -25,10 +25,12 @@ from geocontact.app import samples
 from geocontact.app.fields import Form, shown
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import ENTRY, Window
+from tests.cli.test_tool_folders import leg, opencap, put
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
+__all__ = ["leg"]
 PATIENCE = 1200.0  # s on a busy machine, of a run
 SOCKET = "/_nicegui_ws/socket.io/?EIO=4&transport=polling"
 QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
@@ -495,6 +497,88 @@ def test_a_field_for_one_file_takes_one_and_says_so(window: Window) -> None:
     until(tab, "document.querySelector('[name=mesh]').value.endsWith('a.stl')", 20.0)
     said = tab.locator('.field:has([name="mesh"]) .failed').inner_text()
     assert said == "b.stl was not taken: one file is asked for here"
+    tab.close()
+
+
+def drop_folders(tab: Page, place: str, *folders: Path) -> None:
+    """Let go of folders above an element, as a file manager does."""
+    tab.locator(place).scroll_into_view_if_needed()
+    box = tab.locator(place).bounding_box()
+    assert box is not None
+    at = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + 0.5 * box["height"]}
+    data = {"items": [], "files": [str(each) for each in folders], "dragOperationsMask": 1}
+    session = tab.context.new_cdp_session(tab)
+    for kind in ("dragEnter", "dragOver", "drop"):
+        session.send("Input.dispatchDragEvent", {"type": kind, **at, "data": data})
+    session.detach()
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    return {file.relative_to(folder).as_posix(): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+def test_a_folder_that_is_dropped_is_recognised_and_run(window: Window, leg: Path, tmp_path: Path) -> None:
+    """Its files lie in the folder of the run as they lay; it is dropped on another field, chosen, and typed."""
+    session = opencap(leg, tmp_path / "a session")
+    put(leg, session, ("walk.mot", "OpenSimData/Kinematics/walk 2.mot"))
+    for k in range(120):  # a browser lists a hundred at a time
+        (session / "Videos" / f"note {k}.txt").write_text(str(k), encoding="utf-8")
+    (session / "Videos" / "film.mp4").write_bytes(b"film")
+    tab = window.tab("form/markers")
+    drop_folders(tab, '.field:has([name="model"]) label', session)
+    value = "document.querySelector('[name=coordinates]').value"
+    until(tab, f"{value}.endsWith('a session')", 60.0)
+    there = Path(str(tab.evaluate(value)))
+    kept = tree(session)
+    assert kept.pop("Videos/film.mp4") and tree(there) == kept and there.parent.name.endswith("-files")
+    said = "document.querySelector('.field:has([name=coordinates]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes('OpenCap session')", 60.0)
+    assert "3 trials: neutral (static by its name), walk 2, walk1" in str(tab.evaluate(said))
+    assert "2 with markers, 2 with coordinates" in str(tab.evaluate(said))
+    until(tab, "document.querySelector('[aria-label=\"Python lines\"]').textContent.includes('walk 2')", 60.0)
+    tab.get_by_role("button", name="make a study of this").click()
+    until(tab, "document.querySelector('[aria-label=\"study\"]').textContent.includes('[[trials]]')", 60.0)
+    described = tomllib.loads(str(tab.locator('[aria-label="study"]').text_content()))
+    assert [each["trial"] for each in described["trials"]] == ["walk 2", "walk1"]
+    tab.get_by_label("choose a folder for coordinates").set_input_files(session)
+    until(tab, f"{value} !== {json.dumps(str(there))}", 60.0)
+    assert tree(Path(str(tab.evaluate(value)))) == kept
+    tab.locator('[name="coordinates"]').fill(str(tmp_path))
+    until(tab, f"({said}).includes('is no folder of trials')", 60.0)
+    tab.close()
+
+
+def test_a_folder_that_is_not_taken_says_why(window: Window, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "a.trc").touch()
+    (tmp_path / "empty").mkdir()
+    for form, field, names, why in (
+        ("ik", "markers", ("one", "two"), "one, two was not taken: drop one folder"),
+        ("ik", "markers", ("empty",), "empty was not taken: it holds no files; type its path"),
+        ("fit", "mesh", ("one",), "one was not taken: this form takes files here"),
+    ):
+        tab = window.tab(f"form/{form}")
+        drop_folders(tab, f'.field:has([name="{field}"]) label', *(tmp_path / name for name in names))
+        failed = tab.locator(f'.field:has([name="{field}"]) .failed')
+        failed.wait_for()
+        assert failed.inner_text() == why
+        assert tab.locator(f'[name="{field}"]').input_value() == ""
+        tab.close()
+
+
+def test_no_file_of_a_folder_is_written_outside_of_it(window: Window) -> None:
+    """Names that no browser sends, and files of two folders."""
+    tab = window.tab("form/ik")
+    address = tab.locator("input[webkitdirectory]").get_attribute("data-to")
+    before = {*window.folder.parent.rglob("*")}
+    script = """async ([to, names]) => { const data = new FormData();
+      for (const name of names) data.append(name, new File(['x'], 'x'));
+      return (await fetch(to + '/folder', { method: 'POST', body: data })).status; }"""
+    for name in ("../a.trc", "s/../../a.trc", "/a.trc", "s//a.trc", "s/..\\a.trc", "t/a.trc"):
+        assert tab.evaluate(script, [address, ["s/b.trc", name]]) in (404, 422), name
+    made = {*window.folder.parent.rglob("*")} - before
+    assert not [each for each in made if each.is_file()]
     tab.close()
 
 
