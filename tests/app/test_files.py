@@ -90,7 +90,8 @@ def test_a_process_of_its_own_says_the_same(tmp_path: Path, monkeypatch: pytest.
     assert "more than 0.001 s" in contents([cup], patience=1e-3)[0].wrong
     assert contents([tmp_path / "gone.xyz"])[0].wrong == "gone.xyz: No such file or directory"
     monkeypatch.setattr("sys.executable", shutil.which("false"))
-    assert [each.wrong for each in contents([cup, cup])] == [f"{cup.name}: not looked at, its reader ended with 1"] * 2
+    why = f"{cup.name}: not looked at, the process that reads ended with 1"
+    assert [each.wrong for each in contents([cup, cup])] == [why] * 2
 
 
 def test_the_page_of_a_surface(tmp_path: Path) -> None:
