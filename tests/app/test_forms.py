@@ -165,7 +165,7 @@ def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
         at = filled.at(message)
         assert message and not lines and at is not None and at.name == name, (name, message)
     with pytest.raises(InputError, match="4 parsec"):
-        calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
+        calls.python_lines(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area", "out")
 
 
 def test_an_input_that_is_missing_is_not_taken_by_the_next_one(home: Path) -> None:
