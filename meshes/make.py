@@ -13,6 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # so that the script runs from anywhere
 
 from geocontact.shoulder_exoskeleton.synthetic import condition, participant, synthetic_trial, task
+from meshes.form_files import form_files
 from meshes.gait import synthetic_gait
 from meshes.knee_leg import knee_leg_files
 from meshes.leg_files import leg_model, leg_swing
@@ -74,7 +75,8 @@ def gait_files() -> dict[str, bytes]:
     }
     title = "geocontact synthetic patellar button, right, coarse, mm"
     surface = {"patella_right_coarse.stl": stl_bytes(snapped(button[0]), button[1], title)}
-    return surface | {name: text.encode("ascii") for name, text in texts.items()}
+    files = surface | {name: text.encode("ascii") for name, text in texts.items()}
+    return files | form_files(texts["gait.csv"])
 
 
 def mat_files() -> dict[str, bytes]:

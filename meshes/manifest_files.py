@@ -43,7 +43,7 @@ FOLDER_KINDS = {
     "exoskeleton": "study",
 }
 """By suffix; in the folder of a mat's recording or of a trial by the first word of the name."""
-FOLDERS = ("mat_*", "amputee_*", "foot_*", "gait_*", "knee_leg_*", "overhead_*", "standing_up*", "whole_body")
+FOLDERS = ("mat_*", "amputee_*", "foot_*", "forms", "gait_*", "knee_leg_*", "overhead_*", "standing_up*", "whole_body")
 """Of recordings and trials, in the order of the manifest."""
 
 
@@ -51,6 +51,8 @@ def kind(name: PurePath) -> str:
     """What a file holds, from its path in the folder of the sample data."""
     if name.match("foot_*/walking.csv"):  # a setting's compression, no markers
         return "recording"
+    if name.match("forms/*"):
+        return "study" if name.suffix == ".toml" else "recording"
     return FOLDER_KINDS[name.stem.partition("_")[0]] if len(name.parts) > 1 else KINDS[name.suffix]
 
 

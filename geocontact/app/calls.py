@@ -11,7 +11,7 @@ from typing import Any
 from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
-from geocontact.analyses.frame.options import Options, declared
+from geocontact.analyses.frame.options import declared
 from geocontact.app.fields import BEFORE, PROGRAM, Form
 from geocontact.cli.command import FORMS, command_of, spelling
 from geocontact.cli.folders import OUT, calls_in_folder
@@ -26,36 +26,19 @@ WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite
 """Arguments of `Result.write`."""
 
 
-def read(words: Sequence[str], command: str) -> Options:
-    """Options of a call, read as the command line reads them.
-
-    Raises
-    ------
-    CycloptsError, InputError
-        As the command line does.
-    """
-    return _bound(words, command)[0]
-
-
-def _bound(words: Sequence[str], command: str) -> tuple[Options, dict[str, Any]]:
-    """Options of a call, and all that was typed by its name."""
-    _, bound, _ = app.parse_args(list(words), exit_on_error=False, print_error=False)
-    return command_of(entry_of(command)).read(*bound.args, **bound.kwargs), bound.kwargs
-
-
-def _calls(words: Sequence[str]) -> list[list[str]]:
+def _calls(words: Sequence[str]) -> dict[str, list[str]]:
     """What the command line makes of a call: one for each trial where a folder takes the place of the recording.
 
-    Warnings are left to the run.
+    By the names of the trials, "" where no folder does. Warnings are left to the run.
     """
     with redirect_stderr(StringIO()):
         tokens = with_setup(words)
         found = calls_in_folder(tokens, spelling)
-    return [each.tokens for each in found] or [tokens]
+    return {str(each.recognised["trial"]): each.tokens for each in found} or {"": tokens}
 
 
-def expanded(form: Form, out: Path | str) -> Form:
-    """The form with the inputs that a set-up file or a folder stands for, those of its first trial.
+def expanded(form: Form, out: Path | str) -> dict[str, Form]:
+    """The form with the inputs that a set-up file or a folder stands for: by the name of each of its trials, else "".
 
     Raises
     ------
@@ -63,8 +46,8 @@ def expanded(form: Form, out: Path | str) -> Form:
         For a set-up file or a folder that cannot be used.
     """
     if not any(one.name in BEFORE for one in form.fields):
-        return form
-    return Form.of_words(_calls(form.words(out))[0])
+        return {"": form}
+    return {trial: Form.of_words(words) for trial, words in _calls(form.words(out)).items()}
 
 
 def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, str]:
@@ -83,7 +66,7 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
     CycloptsError, InputError
         For words that the command line refuses.
     """
-    calls = _calls(words)
+    calls = list(_calls(words).values())
     lines = ""
     for tokens in calls:
         own = out if len(calls) == 1 else next(word for word in tokens if word.startswith(f"{OUT}=")).partition("=")[2]
@@ -95,7 +78,8 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
 
 def _one_call(words: Sequence[str], command: str, out: Path | str) -> str:
     entry = entry_of(command)
-    options, typed = _bound(words, command)
+    _, bound, _ = app.parse_args(list(words), exit_on_error=False, print_error=False)
+    options, typed = command_of(entry).read(*bound.args, **bound.kwargs), bound.kwargs
     if not entry.exported or (entry.many and options.given("many")):
         return ""
     call = ".".join(part for part in ("gc", entry.room, entry.name) if part)

@@ -25,6 +25,8 @@ PROGRAM = "geocontact"
 SETUP, TRIAL = opensim_setup.OPTION.removeprefix("--"), folders.TRIAL.removeprefix("--")
 BEFORE = (SETUP, TRIAL)
 """What the command line replaces by inputs and options before it reads them."""
+CASE = "case"
+"""The input that is a folder of a gap case."""
 Kind = Literal["flag", "choice", "file", "files", "lines", "text"]
 UNITS_OF = {
     "length": ("mm", "cm", "m", "in"),
@@ -52,11 +54,14 @@ class Field:
         Its help, as the command line spells it.
     spelled
         How the command line spells it, with its dashes, or MOVING for an input.
+    folder
+        Whether it may be a folder.
     """
 
     one: Declared
     words: str
     spelled: str
+    folder: bool = False
 
     @property
     def name(self) -> str:
@@ -268,7 +273,8 @@ def fields_of(command: str) -> tuple[Field, ...]:
     before = _of_before(command)
     own = [_in_place(one, before) for one in known if one.settable]
     shown = [*own, *_of_every_command(entry_of(command).load_options().over_time)]
-    found = [Field(one, spell(one.words), spell(f"`{one.name}`")) for one in shown]
+    places = {own[0].name} if command in folders.COMMANDS else {CASE}
+    found = [Field(one, spell(one.words), spell(f"`{one.name}`"), one.name in places) for one in shown]
     inputs = sum(argument(each.one) for each in found)
     return (*found[:inputs], *(Field(one, one.words, f"--{one.name}") for one in before), *found[inputs:])
 

@@ -72,12 +72,12 @@ class FileView:
         new = list(dict.fromkeys(each for some in files.values() for each in some if each not in self._known))
         if new:
             found = await aside.io_bound(contents, [path for path, *_ in new])
-            self._known |= dict(zip(new, found or [], strict=True))
+            self._known |= dict(zip(new, found or [Content()] * len(new), strict=True))  # none as the window ends
 
     def _files(self, one: Field) -> tuple[Known, ...]:
         """Files of a field that are there."""
         lines = [line.strip() for line in str(self.form.value(one)).splitlines() if line.strip()]
-        found = (known_file(self._folder / line) for line in lines)
+        found = (known_file(self._folder / line, one.folder) for line in lines)
         return tuple(each for each in found if each is not None)
 
     def _show(self, row: FieldRow, files: tuple[Known, ...]) -> None:
@@ -95,7 +95,7 @@ class FileView:
         """Name and kind of a file above its facts."""
         with element("p"):
             text("strong", path.name)
-            text("span", f": {content.kind or 'a file'}")
+            text("span", f": {content.kind or ('a folder' if path.is_dir() else 'a file')}")
             if one.kind == "files":
                 self._without(one, path)
         with element("ul"):

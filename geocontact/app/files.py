@@ -28,13 +28,14 @@ Known = tuple[Path, int, int]
 """A file, its time of change and its size: the same content as before."""
 
 
-def known_file(path: Path) -> Known | None:
-    """A regular file as it is now; None where there is none, or none that may be looked at."""
+def known_file(path: Path, folder: bool = False) -> Known | None:
+    """A regular file as it is now, or a folder where that may be; None where none is that may be looked at."""
     try:
         seen = path.stat()
     except (OSError, ValueError):  # a folder that is closed, a name that is too long or holds a zero
         return None
-    return (path, seen.st_mtime_ns, seen.st_size) if stat.S_ISREG(seen.st_mode) else None
+    fits = stat.S_ISREG(seen.st_mode) or (folder and stat.S_ISDIR(seen.st_mode))
+    return (path, seen.st_mtime_ns, seen.st_size) if fits else None
 
 
 def page_name(surface: Path, unit: str) -> str:
@@ -45,10 +46,9 @@ def page_name(surface: Path, unit: str) -> str:
 
 def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]:
     """Content of each file, in their order."""
-    code, printed = _ended(__name__, {"paths": list(map(str, paths))}, patience)
-    if code == 0:
-        return [Content(**each) for each in json.loads(printed)]
-    why = f"its reader ended with {code}" if code is not None else f"reading lasts more than {patience:g} s"
+    found, why = answer_of(__name__, {"paths": list(map(str, paths))}, patience)
+    if found is not None:
+        return [Content(**each) for each in found]
     if len(paths) > 1 and not _closed.is_set():  # by themselves, so that one costs the others nothing
         return [content for path in paths for content in contents([path], patience)]
     return [Content(wrong=f"{path.name}: not looked at, {why}") for path in paths]
@@ -56,17 +56,39 @@ def contents(paths: Sequence[Path], patience: float = PATIENCE) -> list[Content]
 
 def write_page(surface: Path, unit: str, out: Path, patience: float = PATIENCE) -> str:
     """Write the page of a surface, which turns it in 3-D; why it cannot be written, "" where it is."""
-    code, printed = _ended(__name__, {PAGE: [str(surface), unit, str(out)]}, patience)
-    if code is None:
-        return f"no page: writing it lasts more than {patience:g} s"
-    return f"no page: the process that writes it ended with {code}" if code else str(json.loads(printed))
+    found, why = answer_of(__name__, {PAGE: [str(surface), unit, str(out)]}, patience)
+    return f"no page: {why}" if found is None else str(found)
 
 
 def answer_of(module: str, question: object, patience: float = PATIENCE) -> tuple[Any, str]:
-    """What a module of this room prints for a question, both as JSON; None and why where it prints nothing."""
-    code, printed = _ended(module, question, patience)
-    if code is None:
+    """What a module of this room prints for a question, both as JSON; None and why where it prints nothing.
+
+    Its process ends with all that it started where it lasts too long. The question goes to its standard input:
+    arguments have a largest size and are seen by other users.
+    """
+    from geocontact.app.runs import end  # which a process that reads does not need
+
+    with subprocess.Popen(
+        [sys.executable, "-P", "-m", module],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        encoding="utf-8",
+        start_new_session=os.name != "nt",
+    ) as process:
+        try:
+            if until_close(process):
+                printed, _ = process.communicate(json.dumps(question), timeout=patience)
+        except subprocess.TimeoutExpired:
+            pass
+        finally:
+            timely = process.poll() is not None
+            if not timely:
+                end(process)
+            _running.discard(process)
+    if not timely:
         return None, f"reading lasts more than {patience:g} s"
+    code = process.returncode
     return (json.loads(printed), "") if code == 0 else (None, f"the process that reads ended with {code}")
 
 
@@ -84,38 +106,6 @@ def close() -> None:
     for process in tuple(_running):
         if process.poll() is None:
             end(process)
-
-
-def _ended(module: str, question: object, patience: float) -> tuple[int | None, str]:
-    """Exit code of a module's process and what it printed; None where it lasted too long, then it ends with all it
-    started. The question goes to its standard input: arguments have a largest size and are seen by other users.
-    """
-    from geocontact.app.runs import end  # which a process that reads does not need
-
-    quiet = subprocess.DEVNULL
-    with subprocess.Popen(
-        [sys.executable, "-P", "-m", module],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=quiet,
-        encoding="utf-8",
-        start_new_session=os.name != "nt",
-    ) as process:
-        _running.add(process)
-        try:
-            return (None, "") if _closed.is_set() else _answer(process, json.dumps(question), patience)
-        finally:
-            if process.poll() is None:
-                end(process)
-            _running.discard(process)
-
-
-def _answer(process: subprocess.Popen[str], question: str, patience: float) -> tuple[int | None, str]:
-    try:
-        printed, _ = process.communicate(question, timeout=patience)
-    except subprocess.TimeoutExpired:
-        return None, ""
-    return process.returncode, printed
 
 
 def _page(surface: str, unit: str, out: str) -> str:

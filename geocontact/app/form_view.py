@@ -118,6 +118,12 @@ class FieldRow:
             if self.one.kind == "files":
                 made.props["multiple"] = True
         self.inputs.append(made)
+        if self.one.folder:
+            with element("span", "pick"):
+                text("span", "or a folder, without videos …")
+                whole = element("input", type="file", aria_label=f"choose a folder for {self.one.label}", **told)
+                whole.props["webkitdirectory"] = True
+            self.inputs.append(whole)
 
     def _set(self, value: str | bool) -> None:
         self._form.values[self.one.name] = value

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from hmac import compare_digest
 from itertools import count
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.responses import FileResponse, PlainTextResponse
 from nicegui import app as site
 from nicegui import ui
 from nicegui.element import Element
+from starlette.datastructures import UploadFile
 
 from geocontact.analyses.catalogue import ENTRIES, entry_of
 from geocontact.app import samples
@@ -26,6 +31,9 @@ from geocontact.cli.command import summary
 
 MOST_RECENT = 12
 MOST_OF_A_NAME = 10_000
+MOST_FILES = 20_000
+"""Files of a folder, as its reader looks at."""
+PIECE = 1 << 20
 RECORD = "run.json"
 GUIDE, GUIDED = "/gap-case", "a gap case, step by step"
 HERE = Path(__file__).parent
@@ -79,24 +87,47 @@ class Shared:
 
     async def take(self, key: int, name: str, request: Request) -> str:
         """Keep a file that was dropped, whole or not at all, in place of none that is there; its path."""
-        plain = name.replace("\\", "/").rpartition("/")[2].strip()
-        if key not in self._uploads or plain in ("", ".", "..") or "\0" in plain:
-            raise HTTPException(404)
-        folder = self._uploads[key]
-        folder.mkdir(parents=True, exist_ok=True)
-        part = folder / f".{secret()}"
-        try:
-            with part.open("wb") as kept:
+        (plain,) = _parts(name.replace("\\", "/").rpartition("/")[2].strip())
+        with self._arriving(key) as part:
+            with (part / plain).open("wb") as kept:
                 async for piece in request.stream():
                     kept.write(piece)
-            places = (folder / plain, *(folder / str(k) / plain for k in range(2, MOST_OF_A_NAME)))
-            place = next(each for each in places if not each.exists())
-            place.parent.mkdir(exist_ok=True)
-            return str(part.replace(place))
+            return self._moved(part / plain)
+
+    async def take_folder(self, key: int, request: Request) -> str:
+        """Keep the files of a folder below it as they were, all or none, in place of none that is there; its path."""
+        with self._arriving(key) as part:
+            async with request.form(max_files=MOST_FILES, max_fields=0) as form:
+                for name, file in form.multi_items():
+                    place = part.joinpath(*_parts(name))
+                    place.parent.mkdir(parents=True, exist_ok=True)
+                    with place.open("xb") as kept:
+                        while isinstance(file, UploadFile) and (piece := await file.read(PIECE)):
+                            kept.write(piece)
+            found = [each for each in part.iterdir() if each.is_dir()]
+            if len(found) != 1:
+                raise HTTPException(422, "it holds no files")
+            return self._moved(found[0])
+
+    @contextmanager
+    def _arriving(self, key: int) -> Iterator[Path]:
+        """A folder for what has not arrived yet, removed at the end."""
+        if key not in self._uploads:
+            raise HTTPException(404)
+        self._uploads[key].mkdir(parents=True, exist_ok=True)
+        try:
+            with TemporaryDirectory(prefix=".", dir=self._uploads[key]) as part:
+                yield Path(part)
         except OSError as error:
             raise HTTPException(507, str(error.strerror)) from error
-        finally:
-            part.unlink(missing_ok=True)
+
+    def _moved(self, arrived: Path) -> str:
+        """Where it lies from now on: beside the folder that it arrived in, or in a numbered one."""
+        folder = arrived.parent.parent
+        places = (folder, *(folder / str(k) for k in range(2, MOST_OF_A_NAME)))
+        place = next(each for each in places if not (each / arrived.name).exists())
+        place.mkdir(exist_ok=True)
+        return str(arrived.replace(place / arrived.name))
 
     def file(self, key: str, name: str) -> Path:
         """A file of a run's results; nothing outside of their folder."""
@@ -108,6 +139,15 @@ class Shared:
         raise HTTPException(404)
 
 
+def _parts(name: str) -> list[str]:
+    """Parts of a relative path that stays below where it is put."""
+    parts = name.split("/")
+    signs = "\0\\:" if os.name == "nt" else "\0\\"
+    if any(part in ("", ".", "..") or any(sign in part for sign in signs) for part in parts):
+        raise HTTPException(404)
+    return parts
+
+
 def add_pages(queue: Queue, outside: FastAPI) -> None:
     """Declare all pages and addresses; those of results at the application around the pages, without their path."""
     shared = Shared(queue)
@@ -117,6 +157,10 @@ def add_pages(queue: Queue, outside: FastAPI) -> None:
     @site.post("/upload/{key}")
     async def _upload(key: int, name: str, request: Request) -> PlainTextResponse:
         return PlainTextResponse(await shared.take(key, name, request))
+
+    @site.post("/upload/{key}/folder")
+    async def _upload_folder(key: int, request: Request) -> PlainTextResponse:
+        return PlainTextResponse(await shared.take_folder(key, request))
 
     @outside.get(RESULT + "{key}/{name:path}")
     def _result(key: str, name: str) -> FileResponse:
@@ -204,7 +248,8 @@ def _begin(title: str) -> None:
     """Title, style and head of a page."""
     ui.page_title(_titled(title))
     ui.add_css(HERE / "style.css")
-    ui.add_body_html(f"<script>{(HERE / 'script.js').read_text(encoding='utf-8')}</script>")
+    for script in ("script.js", "folders.js"):
+        ui.add_body_html(f"<script>{(HERE / script).read_text(encoding='utf-8')}</script>")
     with element("header", "top"):
         link("geocontact", "/")
         link("all analyses", "/")

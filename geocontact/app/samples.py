@@ -8,14 +8,11 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from geocontact.app.sample_files import write_files
 from geocontact.cli.demo import sample_folder
 
-_LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-SAMPLES: dict[str, str] = _LISTED["samples"]
-"""Words of a call by the command of its analysis."""
-START: dict[str, list[str]] = _LISTED["start"]
-"""What somebody has, and the analyses for it."""
+START: dict[str, dict[str, str]] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+"""What somebody has: words of a call by the command of each analysis for it."""
+SAMPLES = {command: words for analyses in START.values() for command, words in analyses.items()}
 
 
 @dataclass(frozen=True)
@@ -38,29 +35,19 @@ class Sample:
 
 
 def sample(command: str, home: Path) -> Sample:
-    """The sample of an analysis, whose own files are written below `home`."""
-    text = SAMPLES[command]
+    """The sample of an analysis; results of those before it lie below `home`."""
     before = before_of(command)
-    places = {"m": sample_folder(), "f": home / "sample-files"}
-    places |= {each: results_of(each, home) for each in before}
-    if "{f}" in text:
-        write_files(places["f"])
-    named = {name: f"{{{k}}}" for k, name in enumerate(places)}  # a name may have a blank
-    for name, short in named.items():
-        text = text.replace(f"{{{name}}}", short)
-    words = [
-        re.sub(r"\{(\d+)\}", lambda found: str(list(places.values())[int(found[1])]), w) for w in shlex.split(text)
-    ]
+    places = {"m": sample_folder(), "f": sample_folder() / "forms"}
+    places |= {each.replace(" ", "-"): results_of(each, home) for each in before}
+    words = (word.format(**places) for word in shlex.split(SAMPLES[command]))
     return Sample(command, (*command.split(), *words), before)
 
 
 def before_of(command: str) -> tuple[str, ...]:
     """Analyses whose results a sample reads, the first ones first."""
-    found: dict[str, None] = {}
-    for each in re.findall(r"\{([^}]+)\}", SAMPLES[command]):
-        if each in SAMPLES:
-            found |= dict.fromkeys((*before_of(each), each))
-    return tuple(found)
+    named = re.findall(r"\{([^}]+)\}", SAMPLES[command])
+    direct = [each for each in SAMPLES if each.replace(" ", "-") in named]
+    return tuple(dict.fromkeys(earlier for each in direct for earlier in (*before_of(each), each)))
 
 
 def results_of(command: str, home: Path) -> Path:

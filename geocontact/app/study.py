@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from itertools import count
 from math import isfinite
 from pathlib import Path
@@ -13,22 +14,46 @@ from geocontact.app.fields import Field, Form
 from geocontact.cli.command import FORMS
 
 HEAD = """\
-# A study of one trial. To make it one of many: name the files by a pattern, files = "data/{{subject}}_{{trial}}.csv",
-# and write "{{file}}" in place of a path below. [sweep] lists values of an option that every trial is evaluated with.
 analysis = {command}
 
 [options]
 """
+ONE = """\
+# A study of one trial. To make it one of many: name the files by a pattern, files = "data/{subject}_{trial}.csv",
+# and write "{file}" in place of a path below. [sweep] lists values of an option that every trial is evaluated with.
+"""
 
 
-def study_of(form: Form, folder: Path) -> str:
-    """Text of the description; paths start from `folder`, options are as they are typed on the command line."""
-    lines = []
-    for one in form.fields:
-        value = form.value(one)
-        if one.name not in FORMS and not form.without_effect(one) and one.typed(value, form.unit(one)):
-            lines.append(f"{key(one.one)} = {_toml(one, form, folder)}")
-    return HEAD.format(command=json.dumps(form.command)) + "\n".join(lines) + "\n"
+def study_of(forms: Mapping[str, Form], folder: Path) -> str:
+    """Text of the description; paths start from `folder`, options are as they are typed on the command line.
+
+    Parameters
+    ----------
+    forms
+        A form of one analysis by the name of each trial, "" for one that has none: what all of them say stands once.
+    """
+    said = {trial: _options(form, folder) for trial, form in forms.items()}
+    first, *others = said.values()
+    shared = {name: text for name, text in first.items() if all(each.get(name) == text for each in others)}
+    command = json.dumps(next(iter(forms.values())).command)
+    parts = [("" if others else ONE) + HEAD.format(command=command) + _lines(shared)]
+    for trial, options in said.items() if others else ():
+        own = {name: text for name, text in options.items() if name not in shared}
+        parts.append(f"[[trials]]\ntrial = {json.dumps(trial, ensure_ascii=False)}\n[trials.options]\n{_lines(own)}")
+    return "\n".join(parts)
+
+
+def _lines(options: Mapping[str, str]) -> str:
+    return "".join(f"{name} = {text}\n" for name, text in options.items())
+
+
+def _options(form: Form, folder: Path) -> dict[str, str]:
+    """Values as TOML writes them, by the keys of a study."""
+    return {
+        key(one.one): _toml(one, form, folder)
+        for one in form.fields
+        if one.name not in FORMS and not form.without_effect(one) and one.typed(form.value(one), form.unit(one))
+    }
 
 
 def written_study(file: Path, described: str) -> Path:
@@ -54,7 +79,8 @@ def _toml(one: Field, form: Form, folder: Path) -> str:
     if one.several:
         return json.dumps(texts, ensure_ascii=False)
     kind = one.one.typed.kind if one.one.typed is not None else one.one.kind
-    return (kind in (int, float) and _number(texts[0])) or json.dumps(texts[0], ensure_ascii=False)
+    number = _number(texts[0]) if kind in (int, float) else ""
+    return number or json.dumps(texts[0], ensure_ascii=False)
 
 
 def _absolute(text: str, folder: Path) -> str:

@@ -31,9 +31,11 @@ class Window:
     requests: list[str] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
 
-    def tab(self, path: str = "") -> Page:
-        """A page of it, ready to be used."""
+    def tab(self, path: str = "", results: bool = True) -> Page:
+        """A page of it, ready to be used; without `results` their frames stay empty, which costs a browser less."""
         tab = self.context.new_page()
+        if not results:
+            tab.route("**/result/**", lambda route: route.fulfill(body="", content_type="text/html"))
         tab.on("request", lambda request: self.requests.append(request.url))
         tab.on("pageerror", lambda error: self.complaints.append(str(error)))
         tab.goto(f"{self.home}/{path}")

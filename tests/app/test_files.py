@@ -90,7 +90,8 @@ def test_a_process_of_its_own_says_the_same(tmp_path: Path, monkeypatch: pytest.
     assert "more than 0.001 s" in contents([cup], patience=1e-3)[0].wrong
     assert contents([tmp_path / "gone.xyz"])[0].wrong == "gone.xyz: No such file or directory"
     monkeypatch.setattr("sys.executable", shutil.which("false"))
-    assert [each.wrong for each in contents([cup, cup])] == [f"{cup.name}: not looked at, its reader ended with 1"] * 2
+    why = f"{cup.name}: not looked at, the process that reads ended with 1"
+    assert [each.wrong for each in contents([cup, cup])] == [why] * 2
 
 
 def test_the_page_of_a_surface(tmp_path: Path) -> None:
@@ -140,3 +141,27 @@ def test_markers_in_common() -> None:
     assert markers_in_common(["A"], ["A", "B", "C"]).endswith(
         "1 of the model's 3 markers are in the recording; it lacks B, C"
     )
+
+
+def test_folders_are_recognised_where_a_field_takes_one(tmp_path: Path) -> None:
+    """A gap case by its description, a laboratory's by its recordings; what is neither is refused by its reader."""
+    case, laboratory = tmp_path / "case", tmp_path / "laboratory"
+    for folder in (case, laboratory):
+        folder.mkdir()
+        assert known_file(folder) is None and known_file(folder, folder=True) is not None
+    (case / "case.toml").write_text('calibration = ["t1", "t2"]\nevaluation = ["t3"]\n', encoding="utf-8")
+    found = content_of(case)
+    assert (found.kind, found.wrong) == ("gap case", "")
+    assert found.facts == ["2 trials of calibration: t1, t2", "1 trial of evaluation: t3"]
+    assert "laboratory: is no folder of trials" in content_of(laboratory).wrong
+    for name in ("walk.trc", "static.trc", "walk_ik.mot", "walk_grf.xml", "leg.osim", "notes.txt"):
+        (laboratory / name).touch()
+    found = content_of(laboratory)
+    assert (found.kind, found.wrong) == ("folder of trials", "")
+    assert found.facts == [
+        "2 trials: static (static by its name), walk",
+        "2 with markers, 1 with coordinates, 1 with loads",
+        "1 model: leg.osim",
+        "1 other file",
+    ]
+    assert contents([laboratory]) == [found]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 import shlex
 import tomllib
@@ -164,7 +165,7 @@ def test_a_mistake_stands_at_the_field_that_it_names(home: Path) -> None:
         at = filled.at(message)
         assert message and not lines and at is not None and at.name == name, (name, message)
     with pytest.raises(InputError, match="4 parsec"):
-        calls.read(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area")
+        calls.python_lines(Form("area", form.values | {"threshold": "4 parsec"}).words("out"), "area", "out")
 
 
 def test_an_input_that_is_missing_is_not_taken_by_the_next_one(home: Path) -> None:
@@ -252,9 +253,10 @@ def test_a_set_up_file_takes_the_place_of_the_recording(leg: Path, tmp_path: Pat
     lines, wrong = calls.checked(words, "ik", "out")
     assert wrong == "" and "seen.trc" in lines and "leg.osim" in lines and "setup=" not in lines
     told = with_setup(words)
-    assert parsed(calls.expanded(form, "out").words("out")) == parsed(told)
+    found = calls.expanded(form, "out")
+    assert list(found) == [""] and parsed(found[""].words("out")) == parsed(told)
     study = tmp_path / "study.toml"
-    study.write_text(study_of(calls.expanded(form, "out"), tmp_path), encoding="utf-8")
+    study.write_text(study_of(found, tmp_path), encoding="utf-8")
     options = tomllib.loads(study.read_text("utf-8"))["options"]
     assert "setup" not in options and options["model"].endswith("leg.osim")
     form.values["setup"] = str(tmp_path / "none.xml")
@@ -277,7 +279,7 @@ def test_a_study_of_a_form_is_read_by_cohort(command: str, home: Path, tmp_path:
     words = words_of(command, home)
     form = Form.of_words(words)
     file = tmp_path / "study.toml"
-    file.write_text(study_of(form, tmp_path), encoding="utf-8")
+    file.write_text(study_of({"": form}, tmp_path), encoding="utf-8")
     study = read_study_file(file)
     options = entry_of(command).load_options()
     known = {one.spelled.key or one.name: one for one in declared(options)}
@@ -291,7 +293,7 @@ def test_a_study_of_a_form_is_read_by_cohort(command: str, home: Path, tmp_path:
 def test_numbers_in_a_study_are_those_that_were_typed(text: str) -> None:
     """Spellings that TOML does not know as well; what is no finite number stays as it was typed."""
     one = next(each for each in fields_of("area") if each.one.kind is float or str(each.one.kind).startswith("float"))
-    found = tomllib.loads(study_of(Form("area", {one.name: text}), Path()))["options"]
+    found = tomllib.loads(study_of({"": Form("area", {one.name: text})}, Path()))["options"]
     value = found.get(one.spelled.removeprefix("--").replace("-", "_"), found.get(one.name))
     try:
         expected: float | str = float(text) if math.isfinite(float(text)) else text
@@ -305,7 +307,27 @@ def test_a_path_that_the_file_system_refuses_is_one_line(tmp_path: Path) -> None
     form = Form("ik", {"model": "leg.osim", "markers": "x" * 5000})
     lines, wrong = calls.checked(form.words("out"), "ik", "out")
     assert lines == "" and "File name too long" in wrong and "Traceback" not in wrong
-    assert f'"{"x" * 5000}"' in study_of(form, tmp_path)
+    assert f'"{"x" * 5000}"' in study_of({"": form}, tmp_path)
+
+
+@pytest.mark.parametrize(("command", "table"), [("ik", "ik.mot"), ("markers", "markers.trc")])
+def test_a_study_of_a_folder_has_all_of_its_trials(command: str, table: str, leg: Path, tmp_path: Path) -> None:
+    """It is run: each trial has what the command writes of it, and no trial is missing or written twice."""
+    folder = opencap(leg, tmp_path / "session")
+    put(leg, folder, ("still.trc", "MarkerData/walk2.trc"), ("walk.mot", "OpenSimData/Kinematics/walk2.mot"))
+    form = Form(command, {fields_of(command)[0].name: str(folder), "trial": "walk1\nwalk2"})
+    file = written_study(tmp_path / "s" / "study.toml", study_of(calls.expanded(form, "out"), tmp_path))
+    done(call("cohort", file, "--workers", "1", "--out", tmp_path / "study", folder=tmp_path / "study"))
+    done(call(*form.words(tmp_path / "own"), folder=tmp_path / "own"))
+    with (tmp_path / "study" / "trials.csv").open(encoding="utf-8") as rows:
+        studied = {row["trial"]: tmp_path / "study" / row["folder"] / table for row in csv.DictReader(rows)}
+    assert sorted(studied) == ["walk1", "walk2"]
+    for trial, there in studied.items():
+        assert there.read_bytes() == (tmp_path / "own" / trial / table).read_bytes()
+    if command == "ik":
+        assert studied["walk1"].read_bytes() != studied["walk2"].read_bytes()
+    options = tomllib.loads(file.read_text("utf-8"))["options"]
+    assert options["model"].endswith("leg_scaled.osim") and "trial" not in options
 
 
 def test_a_study_that_was_edited_stays(tmp_path: Path) -> None:

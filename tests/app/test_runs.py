@@ -17,7 +17,6 @@ from geocontact.app import calls, runs, samples
 from geocontact.app.fields import Form, fields_of, shown
 from geocontact.app.pages import Shared, earlier_runs
 from geocontact.app.runs import Queue, Run
-from geocontact.app.sample_files import write_files
 from geocontact.cli.demo import sample_folder
 from tests.cli.test_tool_folders import leg, opencap, put
 
@@ -164,7 +163,6 @@ def test_how_far_it_is_and_the_time_left() -> None:
 @pytest.mark.skipif(os.name == "nt", reason="groups of processes of POSIX")
 def test_cancel_ends_all_processes_and_leaves_nothing(queue: Queue, tmp_path: Path) -> None:
     """Two runs of minutes: one with worker processes is cancelled while it runs, the other one before it begins."""
-    write_files(tmp_path / "sample-files")
     before = sorted(tmp_path.rglob("*"))
     first = queue.add(
         ["gap", "benchmark", "--system=all", "--cases=5", "--jobs=2", f"--out={tmp_path / 'first'}"],

@@ -25,11 +25,14 @@ from geocontact.app import samples
 from geocontact.app.fields import Form, shown
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import ENTRY, Window
+from tests.cli.test_tool_folders import leg, opencap, put
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
+__all__ = ["leg"]
 PATIENCE = 1200.0  # s on a busy machine, of a run
+PAUSE = 200  # ms between two looks; each costs both processes and the browser
 SOCKET = "/_nicegui_ws/socket.io/?EIO=4&transport=polling"
 QUICK = ("fit", "loadcells", "markers", "elbow design", "cop")
 RESULTS_OF_SPEED = {"gap benchmark": ["benchmark.json", "benchmark.md"]}
@@ -61,7 +64,7 @@ def fill(tab: Page, form: Form) -> None:
         if field.is_disabled():
             assert time.monotonic() < end, f"{one.name} stays disabled"
             left.append(one)
-            tab.wait_for_timeout(50)
+            tab.wait_for_timeout(PAUSE)
             continue
         value = form.values[one.name]
         if one.kind == "flag":
@@ -78,7 +81,7 @@ def until(tab: Page, script: str, seconds: float = PATIENCE) -> None:
     end = time.monotonic() + seconds
     while not tab.evaluate(script):
         assert time.monotonic() < end, (script, tab.locator(".side").inner_text())
-        tab.wait_for_timeout(50)
+        tab.wait_for_timeout(PAUSE)
 
 
 def settled(tab: Page, words: list[str]) -> None:
@@ -183,9 +186,8 @@ def test_a_server_at_another_port_hears_no_secret(window: Window) -> None:
 
 def test_a_page_of_results_reaches_its_neighbours_and_no_server(window: Window, tmp_path: Path) -> None:
     """A foreign report: its link to a page beside it works, what it asks of servers is not sent."""
-    out = window.folder / "elbow-design-foreign"
-    run_words([*samples.sample("elbow design", window.folder).words, f"--out={out}"], window.folder)
-    tab = window.tab("form/elbow.design?sample=1")
+    out = window.folder / "markers-foreign"
+    tab = window.tab("form/markers?sample=1", results=False)
     tab.get_by_label("folder for the results").fill(str(out))
     until(tab, "document.querySelector('[aria-label=\"command line\"]').textContent.includes('foreign')", 20.0)
     tab.get_by_role("button", name="Run", exact=True).click()
@@ -278,7 +280,7 @@ def test_fields_are_enabled_when_they_have_an_effect(window: Window) -> None:
 
 def test_a_value_changed_runs_again_and_stands_beside(window: Window) -> None:
     """Two pages side by side, the words copied, and a study of them."""
-    tab = window.tab("form/elbow.design?sample=1")
+    tab = window.tab("form/elbow.design?sample=1", results=False)
     tab.get_by_role("button", name="Run", exact=True).click()
     assert ": done" in ended(tab)
     first = tab.locator(".run strong").last.text_content() or ""
@@ -318,7 +320,7 @@ def test_a_sample_runs_behind_those_whose_results_it_reads(window: Window) -> No
 
 def test_a_page_that_is_loaded_anew_is_as_before(window: Window) -> None:
     """What was filled in, its unit, and the run with its page; a mistake that is known before starts no run."""
-    tab = window.tab("form/elbow.design?sample=1")
+    tab = window.tab("form/elbow.design?sample=1", results=False)
     tab.locator('[name="limit"]').fill("many")
     tab.get_by_role("button", name="Run", exact=True).click()
     until(tab, "document.activeElement.name === 'limit' && document.activeElement.ariaInvalid === 'true'", 20.0)
@@ -498,6 +500,88 @@ def test_a_field_for_one_file_takes_one_and_says_so(window: Window) -> None:
     tab.close()
 
 
+def drop_folders(tab: Page, place: str, *folders: Path) -> None:
+    """Let go of folders above an element, as a file manager does."""
+    tab.locator(place).scroll_into_view_if_needed()
+    box = tab.locator(place).bounding_box()
+    assert box is not None
+    at = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + 0.5 * box["height"]}
+    data = {"items": [], "files": [str(each) for each in folders], "dragOperationsMask": 1}
+    session = tab.context.new_cdp_session(tab)
+    for kind in ("dragEnter", "dragOver", "drop"):
+        session.send("Input.dispatchDragEvent", {"type": kind, **at, "data": data})
+    session.detach()
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    return {file.relative_to(folder).as_posix(): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+def test_a_folder_that_is_dropped_is_recognised_and_run(window: Window, leg: Path, tmp_path: Path) -> None:
+    """Its files lie in the folder of the run as they lay; it is dropped on another field, chosen, and typed."""
+    session = opencap(leg, tmp_path / "a session")
+    put(leg, session, ("walk.mot", "OpenSimData/Kinematics/walk 2.mot"))
+    for k in range(120):  # a browser lists a hundred at a time
+        (session / "Videos" / f"note {k}.txt").write_text(str(k), encoding="utf-8")
+    (session / "Videos" / "film.mp4").write_bytes(b"film")
+    tab = window.tab("form/markers")
+    drop_folders(tab, '.field:has([name="model"]) label', session)
+    value = "document.querySelector('[name=coordinates]').value"
+    until(tab, f"{value}.endsWith('a session')", 60.0)
+    there = Path(str(tab.evaluate(value)))
+    kept = tree(session)
+    assert kept.pop("Videos/film.mp4") and tree(there) == kept and there.parent.name.endswith("-files")
+    said = "document.querySelector('.field:has([name=coordinates]) .content')?.textContent ?? ''"
+    until(tab, f"({said}).includes('OpenCap session')", 60.0)
+    assert "3 trials: neutral (static by its name), walk 2, walk1" in str(tab.evaluate(said))
+    assert "2 with markers, 2 with coordinates" in str(tab.evaluate(said))
+    until(tab, "document.querySelector('[aria-label=\"Python lines\"]').textContent.includes('walk 2')", 60.0)
+    tab.get_by_role("button", name="make a study of this").click()
+    until(tab, "document.querySelector('[aria-label=\"study\"]').textContent.includes('[[trials]]')", 60.0)
+    described = tomllib.loads(str(tab.locator('[aria-label="study"]').text_content()))
+    assert [each["trial"] for each in described["trials"]] == ["walk 2", "walk1"]
+    tab.get_by_label("choose a folder for coordinates").set_input_files(session)
+    until(tab, f"{value} !== {json.dumps(str(there))}", 60.0)
+    assert tree(Path(str(tab.evaluate(value)))) == kept
+    tab.locator('[name="coordinates"]').fill(str(tmp_path))
+    until(tab, f"({said}).includes('is no folder of trials')", 60.0)
+    tab.close()
+
+
+def test_a_folder_that_is_not_taken_says_why(window: Window, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "a.trc").touch()
+    (tmp_path / "empty").mkdir()
+    for form, field, names, why in (
+        ("ik", "markers", ("one", "two"), "one, two was not taken: drop one folder"),
+        ("ik", "markers", ("empty",), "empty was not taken: it holds no files; type its path"),
+        ("fit", "mesh", ("one",), "one was not taken: this form takes files here"),
+    ):
+        tab = window.tab(f"form/{form}")
+        drop_folders(tab, f'.field:has([name="{field}"]) label', *(tmp_path / name for name in names))
+        failed = tab.locator(f'.field:has([name="{field}"]) .failed')
+        failed.wait_for()
+        assert failed.inner_text() == why
+        assert tab.locator(f'[name="{field}"]').input_value() == ""
+        tab.close()
+
+
+def test_no_file_of_a_folder_is_written_outside_of_it(window: Window) -> None:
+    """Names that no browser sends, and files of two folders."""
+    tab = window.tab("form/ik")
+    address = tab.locator("input[webkitdirectory]").get_attribute("data-to")
+    before = {*window.folder.parent.rglob("*")}
+    script = """async ([to, names]) => { const data = new FormData();
+      for (const name of names) data.append(name, new File(['x'], 'x'));
+      return (await fetch(to + '/folder', { method: 'POST', body: data })).status; }"""
+    for name in ("../a.trc", "s/../../a.trc", "/a.trc", "s//a.trc", "s/..\\a.trc", "t/a.trc"):
+        assert tab.evaluate(script, [address, ["s/b.trc", name]]) in (404, 422), name
+    made = {*window.folder.parent.rglob("*")} - before
+    assert not [each for each in made if each.is_file()]
+    tab.close()
+
+
 def test_a_window_that_was_ended_is_said(window: Window) -> None:
     """In place of the words of the library, which wait for a server that never comes back at that address."""
     tab = window.tab()
@@ -548,7 +632,7 @@ def test_cancel_leaves_nothing(window: Window) -> None:
 
 def test_by_keyboard_alone(window: Window) -> None:
     """Tab reaches every field that is enabled and Run, in the order of the page; Enter runs."""
-    tab = window.tab("form/prosthesis.keel?sample=1")
+    tab = window.tab("form/markers?sample=1", results=False)
     tab.locator("body").click()
     reached = []
     for _ in range(40):
@@ -556,7 +640,7 @@ def test_by_keyboard_alone(window: Window) -> None:
         reached.append(tab.evaluate("document.activeElement.name || document.activeElement.textContent"))
         if reached[-1] == "Run":
             break
-    assert reached[-1] == "Run" and "foot" in reached
+    assert reached[-1] == "Run" and "model" in reached
     tab.keyboard.press("Enter")
     assert ": done" in ended(tab)
     tab.close()

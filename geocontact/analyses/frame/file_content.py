@@ -15,6 +15,7 @@ from geocontact.data.errors import InputError
 
 MOST_NAMES = 24
 """Names of columns or markers that are listed."""
+CASE, LARGEST_CASE = "case.toml", 1_000_000
 SURFACE, MODEL = "surface of triangles", "model of OpenSim"
 
 
@@ -47,7 +48,7 @@ class Content:
 
 
 def content_of(path: Path) -> Content:
-    """Content of one file, read in this process."""
+    """Content of one file or folder, read in this process."""
     found = Content()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -83,6 +84,8 @@ def _reader(path: Path) -> Callable[[Path, Content], None]:
     """The function that looks into files with this ending."""
     from geocontact.io.mesh.meshes import READERS
 
+    if path.is_dir():
+        return _case if (path / CASE).is_file() else _folder
     suffix = path.suffix.lower()
     if suffix in READERS:
         return _surface
@@ -231,6 +234,39 @@ def _description(path: Path, found: Content) -> None:
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise InputError(path.name, "", f"is not TOML: {error}", "correct the line") from error
     found.facts = [f"keys: {_listed(keys)}"]
+
+
+def _folder(path: Path, found: Content) -> None:
+    """Kind and trials of a folder of recordings, as the commands that take one find them."""
+    from geocontact.io.recordings.tool_folder import read_tool_folder
+
+    folder = read_tool_folder(path)
+    found.kind = folder.kind
+    named = [f"{each.name} (static by its name)" if each.static else each.name for each in folder.trials]
+    parts = {
+        "markers": sum(each.markers is not None for each in folder.trials),
+        "coordinates": sum(each.coordinates is not None for each in folder.trials),
+        "loads": sum(each.loads is not None for each in folder.trials),
+    }
+    models = [each.name for each in (*folder.models, *folder.generic)]
+    models += [each.model.name for each in folder.trials if each.model is not None]
+    found.facts = [
+        f"{_counted(named, 'trial')}: {_listed(named)}",
+        ", ".join(f"{count} with {part}" for part, count in parts.items() if count),
+        f"{_counted(models, 'model')}: {_listed(models)}" if models else "no model",
+        *([f"person: {folder.person.words} ({folder.person.file.name})"] if folder.person is not None else []),
+        f"{folder.unused} other file{'' if folder.unused == 1 else 's'}",
+    ]
+
+
+def _case(path: Path, found: Content) -> None:
+    """Trials of a gap case, as its description names them."""
+    from geocontact.io.text.toml_text import toml_of
+
+    found.kind = "gap case"
+    said = toml_of(path / CASE, LARGEST_CASE)
+    sides = {side: said[side] for side in ("calibration", "evaluation") if isinstance(said.get(side), list)}
+    found.facts = [f"{_counted(names, 'trial')} of {side}: {_listed(map(str, names))}" for side, names in sides.items()]
 
 
 def _text(path: Path, found: Content) -> None:

@@ -1,56 +1,17 @@
-"""Files of samples that do not lie in the shipped folder: small, synthetic, the same bytes each time."""
+"""Small synthetic inputs of commands for which nothing else here fits: descriptions, a sole, plates, cells."""
 
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
-
-from geocontact.cli.demo import sample_folder
+from collections.abc import Mapping, Sequence
 
 Columns = Mapping[str, Sequence[float]]
-
-
-def write_files(folder: Path) -> None:
-    """All of them, into a folder."""
-    for name, make in FILES.items():
-        file = folder / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(make(), encoding="utf-8")
 
 
 def _table(columns: Columns) -> str:
     """A .csv with a header row and nine digits."""
     rows = zip(*columns.values(), strict=True)
     return "\n".join([",".join(columns), *(",".join(f"{value:.9g}" for value in row) for row in rows)]) + "\n"
-
-
-def _gait(name: str) -> str:
-    """Every tenth frame of a shipped gait cycle."""
-    head, *rows = (sample_folder() / name).read_text(encoding="utf-8").splitlines()
-    return "\n".join([head, *rows[::10]]) + "\n"
-
-
-def _bodies(name: str) -> str:
-    """A shipped description of bodies, with every tenth frame of their motions."""
-    described = (sample_folder() / name).read_text(encoding="utf-8")
-    described = re.sub(r'motion = "(\w+)\.csv"', r'motion = "\1_11.csv"', described)
-    return described.replace('mesh = "', f'mesh = "{sample_folder().as_posix()}/')
-
-
-def _study() -> str:
-    meshes = sample_folder().as_posix()
-    return f"""analysis = "area"
-files = "gait_{{frames}}.csv"
-[options]
-moving = "{meshes}/femoral_component_right_coarse.stl"
-fixed = "{meshes}/tibial_insert_right_coarse.stl"
-unit = "mm"
-motion = "{{file}}"
-[sweep]
-threshold = [2, 4]
-"""
 
 
 def _sole() -> str:
@@ -117,19 +78,15 @@ def _step_force() -> str:
     return _table({"time [s]": time, "total [N]": forces})
 
 
-def _trial(k: int) -> str:
-    """A spring of 60 N m/rad that stiffens, moved by two sines."""
-    time = [0.05 * i for i in range(60)]
-    angle = [0.3 * math.sin(2.0 * math.pi * (0.5 + 0.2 * k) * t + k) + 0.1 * math.sin(7.0 * t) for t in time]
-    turned = [each - 0.05 for each in angle]
-    wobble = [0.2 * math.sin(977.0 * t + k) for t in time]
-    torque = [60.0 * each * (1.0 + 0.3 * each**2) + more for each, more in zip(turned, wobble, strict=True)]
-    return _table({"time [s]": time, "angle [rad]": angle, "torque [N m]": torque})
-
-
-STRUT = """def run(time, inputs, numbers):
-    turned = inputs[0] - numbers["neutral"]
-    return numbers["k"] * turned
+STUDY = """analysis = "area"
+files = "gait_{frames}.csv"
+[options]
+moving = "../femoral_component_right_coarse.stl"
+fixed = "../tibial_insert_right_coarse.stl"
+unit = "mm"
+motion = "{file}"
+[sweep]
+threshold = [2, 4]
 """
 PEOPLE = """[k]
 unit = "N/m"
@@ -151,26 +108,23 @@ normal = { mean = 0, sd = 20 }
 
 def _walks() -> str:
     """A person on three settings of a prosthetic foot."""
-    meshes = sample_folder().as_posix()
-    person = (
-        f'[persons.P1]\nmass = {{ value = 77.3, unit = "kg" }}\nstatic = "{meshes}/gait_P1_medium_1/standing.trc"\n'
-    )
+    person = '[persons.P1]\nmass = { value = 77.3, unit = "kg" }\nstatic = "../gait_P1_medium_1/standing.trc"\n'
     trial = """
 [[trials]]
 name = "P1_{setting}_1"
 person = "P1"
 setting = "{setting}"
-markers = "{meshes}/gait_P1_{setting}_1/walking.trc"
-plates = "{meshes}/gait_P1_{setting}_1/plates.mot"
+markers = "../gait_P1_{setting}_1/walking.trc"
+plates = "../gait_P1_{setting}_1/plates.mot"
 plate = "own_force"
 other_plate = "other_force"
 """
-    return person + "".join(trial.format(setting=each, meshes=meshes) for each in ("low", "medium", "high"))
+    return person + "".join(trial.format(setting=each) for each in ("low", "medium", "high"))
 
 
 def _overhead() -> str:
     """A trial of overhead work with the device and without it."""
-    folder = (sample_folder() / "overhead_P1T1S100").as_posix()
+    folder = "../overhead_P1T1S100"
     files = f'person = "P1"\ntask = "T1"\nmarkers = "{folder}/markers.trc"\ntool = "{folder}/tool.csv"\n'
     person = '[persons.P1]\nmass = { value = 82, unit = "kg" }\nsex = "male"\ndominant = "right"\n'
     person += 'upper_arm = { value = 296, unit = "mm" }\n'
@@ -219,28 +173,22 @@ def _plates() -> str:
     return head + "\n".join(["\t".join(["time", *heads]), *rows]) + "\n"
 
 
-FILES: dict[str, Callable[[], str]] = {
-    "gait_11.csv": lambda: _gait("gait.csv"),
-    "gait_patella_11.csv": lambda: _gait("gait_patella.csv"),
-    "knee_pairs.toml": lambda: _bodies("knee_pairs.toml"),
-    "resting_knee.toml": lambda: _bodies("resting_knee.toml"),
-    "study.toml": _study,
-    "sole.csv": _sole,
-    "foot.csv": _foot,
-    "people.toml": lambda: PEOPLE,
-    "strut.py": lambda: STRUT,
-    "trials/t01.csv": lambda: _trial(0),
-    "trials/t02.csv": lambda: _trial(1),
-    "trials/t03.csv": lambda: _trial(2),
-    "tray.csv": _tray,
-    "step_area.csv": _step_area,
-    "step_force.csv": _step_force,
-    "walks.toml": _walks,
-    "overhead.toml": _overhead,
-    "plan.toml": _plan,
-    "foot_1.csv": lambda: _steps(1),
-    "foot_2.csv": lambda: _steps(2),
-    "foot_3.csv": lambda: _steps(3),
-    "plates.mot": _plates,
-}
-"""Their names, and what writes each of them."""
+def form_files(gait: str) -> dict[str, bytes]:
+    """Files of the folder `forms`; `gait` is the table of the gait cycle, of which every tenth frame is taken."""
+    head, *rows = gait.splitlines()
+    texts = {
+        "gait_11.csv": "\n".join([head, *rows[::10]]) + "\n",
+        "study.toml": STUDY,
+        "sole.csv": _sole(),
+        "foot.csv": _foot(),
+        "people.toml": PEOPLE,
+        "tray.csv": _tray(),
+        "step_area.csv": _step_area(),
+        "step_force.csv": _step_force(),
+        "walks.toml": _walks(),
+        "overhead.toml": _overhead(),
+        "plan.toml": _plan(),
+        **{f"foot_{k}.csv": _steps(k) for k in (1, 2, 3)},
+        "plates.mot": _plates(),
+    }
+    return {f"forms/{name}": text.encode("ascii") for name, text in texts.items()}
