@@ -23,13 +23,13 @@ from nicegui.page import page
 from geocontact.analyses.frame.rerun import differing, results_of
 from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.app.fields import Form
-from geocontact.app.gap_columns import CHANNELS, ColumnTable
+from geocontact.app.gap_columns import ColumnTable
 from geocontact.app.gap_files import answer_questions, columns_of, own_modules, refused_name, write_trials
-from geocontact.app.gap_guide import GapGuide, _finding
+from geocontact.app.gap_guide import GapGuide, _finding, models
 from geocontact.app.gap_questions import QuestionTable
 from geocontact.app.runs import Queue, Run
-from geocontact.systems.elbow import ELBOW
-from geocontact.systems.knee import KNEE
+from geocontact.systems.catalogue import SYSTEMS
+from geocontact.systems.sit_to_stand import SIT_TO_STAND
 from tests.app.conftest import Window
 from tests.app.test_window import run_words, until
 from tests.browsers import awaited
@@ -56,10 +56,15 @@ def strut_trials(folder: Path, count: int = 4) -> list[Path]:
     return files
 
 
-def test_channels_of_the_models_are_theirs() -> None:
-    assert {name: (each["input"], each["output"]) for name, each in CHANNELS.items()} == {
-        base.name: (base.inputs, base.outputs) for base in (ELBOW, KNEE)
-    }
+def test_channels_of_a_model_stand_with_their_units() -> None:
+    """A column with the name of a channel is that channel; of others nothing is chosen."""
+    client = Client(page(""), request=None)
+    with client.content:
+        table = ColumnTable([("thigh_normal", "mm"), ("thigh_force", "N"), ("other", "N")], SIT_TO_STAND)
+    assert table.outputs() == ["thigh_force"] and table.channels() == ["thigh_normal", "thigh_force"]
+    words = labelled(client)["other is"].props["innerHTML"]
+    assert "input thigh_normal [m]" in words and "output shank_force [N]" in words
+    assert set(models()) == {base.name for base in SYSTEMS}
 
 
 def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
@@ -107,6 +112,8 @@ class Pressed:
             _out=folder / "case",
             _filled=filled,
             _columns=columns,
+            _base=None,
+            _needs=None,
             _said_first=label,
             _place_questions=label,
             _queued=self._queued,
@@ -146,12 +153,18 @@ def test_a_simulator_with_the_name_of_another_module_is_refused(tmp_path: Path) 
     assert refused_name(tmp_path / "strut_model.py") == ""
 
 
+async def nothing() -> None:
+    """In the place of what a test does not look at."""
+
+
 def test_all_pages_of_a_run_are_shown() -> None:
     guide = GapGuide.__new__(GapGuide)
     shown: list[tuple[str, str, bool]] = []
     run = SimpleNamespace(pages={"a": "1", "b": "2"}, message="")
     panel = SimpleNamespace(run=run, refresh=lambda: True)
-    vars(guide).update(_panels={1: panel}, _first=None, show=lambda *page, beside: shown.append((*page, beside)))
+    vars(guide).update(
+        _panels={1: panel}, _first=None, _ask_numbers=nothing, show=lambda *page, beside: shown.append((*page, beside))
+    )
     awaited(guide._look())
     assert shown == [("a", "1", False), ("b", "2", True)]
 
