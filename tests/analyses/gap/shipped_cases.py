@@ -96,5 +96,5 @@ def written(name: str, folder: Path) -> GapCase:
         measured[:, -len(system.outputs) :] = 1.2 * system.simulate(trial, system.start)
         filled.append(replace(trial, signals=replace(trial.signals, values=measured)))
     case = replace(case, calibration=tuple(filled[:2]), evaluation=tuple(filled[2:]))
-    write_gap_case(case, folder, digits=15)
+    write_gap_case(case, folder)
     return case
