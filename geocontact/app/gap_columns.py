@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from geocontact.analyses.frame.quantities import UNITS, is_known
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
+from geocontact.io.text.units import si_unit
 from geocontact.systems.base import Base
 
 INPUT, OUTPUT = "input", "output"
@@ -57,11 +58,11 @@ class ColumnTable:
         """Channels that were chosen."""
         return [self._channel(name) for name, role in self._role.items() if role]
 
-    def outputs(self) -> list[str]:
-        """Channels that the model predicts."""
-        if self._model is None:
-            return self._of(OUTPUT)
-        return [each for each in self._model.outputs if each in self.channels()]
+    def outputs(self) -> dict[str, str]:
+        """Channels that the model predicts, with their SI units, "" where none is known yet."""
+        units = {each["channel"]: (si_unit(each["unit"]) or ("",))[0] for each in self.rows()}
+        names = self._of(OUTPUT) if self._model is None else [each for each in self._model.outputs if each in units]
+        return {name: units[name] for name in names}
 
     def _of(self, side: str) -> list[str]:
         return [name for name, _ in self.columns if self._role[name] == side]

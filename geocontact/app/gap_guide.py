@@ -57,7 +57,7 @@ class GapGuide:
         self._filled: dict[str, str] = {"model": OWN, "simulator": "", "trials": "", "numbers": ""}
         self._panels: dict[int, RunPanel] = {}
         self._first: Run | None = None
-        self._simulated, self._outputs = Path(), [""]
+        self._simulated, self._outputs = Path(), dict[str, str]()
         self._base: Base | None = None
         self._needs: Needs | None = None
         self._columns: ColumnTable | None = None
@@ -169,6 +169,8 @@ class GapGuide:
         self._said_first.text = wrong
         self._place_starts.clear()
         with self._place_starts:
+            if needs is not None and not units:
+                text("p", "Start values are asked for once tables and columns are chosen.", "help")
             self._starts = StartTable(units, self._typed_starts)
 
     def _trials(self) -> list[Path]:

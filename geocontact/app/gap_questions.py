@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from geocontact.analyses.gap.init.options import QUESTIONS
@@ -45,10 +45,10 @@ class QuestionTable:
     settings
         What case.toml says now, as `begun_settings` has it; questions that no field here answers are shown.
     outputs
-        Channels that the model predicts.
+        SI units of the channels that the model predicts, by name.
     """
 
-    def __init__(self, settings: Mapping[str, Any], outputs: Sequence[str]) -> None:
+    def __init__(self, settings: Mapping[str, Any], outputs: Mapping[str, str]) -> None:
         self._trials = [*settings["calibration"], *settings["evaluation"]]
         self._held = {name: name in settings["evaluation"] for name in self._trials}
         self._numbers: dict[str, dict[str, Any]] = {}
@@ -64,9 +64,9 @@ class QuestionTable:
                 self._box(self._held, name, f"hold out {name}")
         for name, said in settings.get("parameters", {}).items():
             self._number(name, said)
-        for name in outputs:
+        for name, unit in outputs.items():
             with element("div", "field"), element("div", "in"):
-                text("span", f"noise of {name}")
+                text("span", f"noise of {name} [{unit}]")
                 word(self._noise, name, f"noise of {name}, SI unit; estimated where empty")
 
     def answers(self) -> dict[str, Any]:
