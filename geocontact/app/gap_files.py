@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sys
 import warnings
@@ -78,11 +79,9 @@ def refused_name(simulator: Path) -> str:
 
 def unreadable(simulator: Path) -> str:
     """Why the file of a simulator cannot be read, "" where it can."""
-    try:
-        simulator.open("rb").close()
-    except OSError as error:
-        return f"{simulator.name} cannot be read: {error.strerror}; choose it anew in step 1 and simulate the trials"
-    return ""
+    if simulator.is_file() and os.access(simulator, os.R_OK):
+        return ""
+    return f"{simulator.name} cannot be read, or is there no more; choose it anew in step 1 and simulate the trials"
 
 
 def own_modules(case: Path, simulator: Path, kept: Path) -> tuple[Path, ...]:

@@ -33,7 +33,7 @@ from geocontact.app.gap_files import (
 from geocontact.app.gap_questions import QuestionTable, StartTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
-from geocontact.systems.base import Base, Needs
+from geocontact.systems.base import Base, CaseNeeds
 
 OWN = ""
 CASE = "case.toml"
@@ -59,7 +59,7 @@ class GapGuide:
         self._first: Run | None = None
         self._simulated, self._outputs = Path(), dict[str, str]()
         self._base: Base | None = None
-        self._needs: Needs | None = None
+        self._needs: CaseNeeds | None = None
         self._columns: ColumnTable | None = None
         self._asked: object = None
         self._typed_starts: dict[str, str] = {}
@@ -272,7 +272,7 @@ class GapGuide:
             self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), modules)
 
 
-def models() -> dict[str, tuple[Base, Needs]]:
+def models() -> dict[str, tuple[Base, CaseNeeds]]:
     """Models of the package that declare what they need, by name."""
     from geocontact.systems.catalogue import SYSTEMS  # which takes a second, and no other page needs
 

@@ -14,7 +14,7 @@ from geocontact.data.parameter import Parameter
 
 
 @dataclass(frozen=True)
-class Needs:
+class CaseNeeds:
     """What a case of a base model has to give besides its channels, for whoever makes one.
 
     Parameters
@@ -71,7 +71,7 @@ class Base:
     outputs: tuple[str, ...]
     build: Callable[..., System]
     meshes: tuple[str, ...] = ()
-    needs: Needs | None = None
+    needs: CaseNeeds | None = None
 
     def made(self, case: GapCase) -> Any:
         """What build gives for a case, a System if it is right.

@@ -31,7 +31,7 @@ from geocontact.chain.system import (
 from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.base import Base, Needs, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 
 @kernel
@@ -140,7 +140,7 @@ def measured_force(loads: Loads) -> Float[np.ndarray, "t c"]:
 
 
 NUMBERS = {**dict.fromkeys(LENGTHS, "m"), "k": "N/m"}
-NEEDS = Needs("exoskeleton on a misaligned axis", UNITS, lambda _channels, _tables: NUMBERS)
+NEEDS = CaseNeeds("exoskeleton on a misaligned axis", UNITS, lambda _channels, _tables: NUMBERS)
 
 
 def build(

@@ -19,7 +19,7 @@ from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, Needs, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 from geocontact.systems.foot_spheres import INPUTS, FootSpheres
 
 OUTPUTS = ("force_x", "force_y", "cop_x")
@@ -96,7 +96,7 @@ def build(
     )
 
 
-NEEDS = Needs(
+NEEDS = CaseNeeds(
     "prosthetic foot of spheres on level ground",
     UNITS,
     lambda _channels, tables: numbers_of(zones_of(tables)),

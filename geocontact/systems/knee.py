@@ -26,7 +26,7 @@ from geocontact.chain.system import System
 from geocontact.chain.traits import Migration, Traits
 from geocontact.contact.area_hertz import disc_force
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, Needs, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 AREAS = ("area_medial", "area_lateral")
 KNEE_GEOMETRY = LawParameters(
@@ -118,7 +118,7 @@ def measured_forces(loads: Loads) -> Float[np.ndarray, "t c"]:
 
 
 NUMBERS = {"R": "m", "E_star": "Pa"}
-NEEDS = Needs("forces of an implant from areas", UNITS, lambda _channels, _tables: NUMBERS)
+NEEDS = CaseNeeds("forces of an implant from areas", UNITS, lambda _channels, _tables: NUMBERS)
 
 
 def build(

@@ -29,7 +29,7 @@ from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System, require_convergence, towards
 from geocontact.chain.traits import Mass, Migration, Traits, Way
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, Needs, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 from geocontact.systems.shoulder_motion import HINGED_ARM, LONGEST, swing
 from geocontact.systems.shoulder_slopes import swing_slopes
 
@@ -202,5 +202,5 @@ def numbers_of(_channels: Collection[str], tables: Mapping[str, pd.DataFrame]) -
     return NUMBERS | LAW
 
 
-NEEDS = Needs("exoskeleton that supports a raised arm", UNITS, numbers_of, {"support": COLUMNS}, ("level",))
+NEEDS = CaseNeeds("exoskeleton that supports a raised arm", UNITS, numbers_of, {"support": COLUMNS}, ("level",))
 SHOULDER = Base("shoulder", INPUTS, OUTPUTS, build, needs=NEEDS)

@@ -27,7 +27,7 @@ from geocontact.chain.system import System, require_convergence
 from geocontact.chain.traits import Role, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.base import Base, Needs, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 SITE_GEOMETRY = LawParameters(
     {
@@ -229,7 +229,7 @@ def build(
     )
 
 
-NEEDS = Needs(
+NEEDS = CaseNeeds(
     "exoskeleton strapped to a body that stands up",
     units_of(SITES),
     lambda names, _tables: numbers_of(recorded_sites(names)),

@@ -217,8 +217,8 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     asked.append(
         f"{NOISE_ASKED}{', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated"
     )
-    if first.silent:
-        asked.append(f"{', '.join(first.silent)} changed no output where it was moved: is it the right column?")
+    if silent := [name for name in first.silent if name not in first.system.spare]:
+        asked.append(f"{', '.join(silent)} changed no output where it was moved: is it the right column?")
     trials = (*case.calibration, *case.evaluation)
     if len(trials) < FEW:
         asked.append(f"{len(trials)} trials; can you record {FEW} or more? Two to fit to and two held out")
