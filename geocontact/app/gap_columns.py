@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.analyses.frame.quantities import UNITS, is_known
+from geocontact.analyses.gap.chosen_columns import si_of
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
-from geocontact.io.text.units import si_unit
 from geocontact.systems.base import Base
 
 INPUT, OUTPUT = "input", "output"
@@ -60,7 +60,7 @@ class ColumnTable:
 
     def outputs(self) -> dict[str, str]:
         """Channels that the model predicts, with their SI units, "" where none is known yet."""
-        units = {each["channel"]: (si_unit(each["unit"]) or ("",))[0] for each in self.rows()}
+        units = {each["channel"]: si_of(each["unit"]) for each in self.rows()}
         names = self._of(OUTPUT) if self._model is None else [each for each in self._model.outputs if each in units]
         return {name: units[name] for name in names}
 

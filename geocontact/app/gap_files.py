@@ -16,7 +16,6 @@ from typing import Any
 
 from geocontact.app.files import answer_of
 from geocontact.data.errors import InputError
-from geocontact.io.text.units import si_unit
 
 Row = Mapping[str, str]
 """A column of the recordings as it was chosen: column, channel, unit."""
@@ -108,7 +107,7 @@ def own_modules(case: Path, simulator: Path, kept: Path) -> tuple[Path, ...]:
 
 
 def _columns(asked: dict[str, Any]) -> dict[str, Any]:
-    from geocontact.analyses.gap.chosen_columns import recorded_columns
+    from geocontact.analyses.gap.chosen_columns import recorded_columns, same_unit
 
     first, *others = [Path(each) for each in asked["files"]]
     columns = recorded_columns(first)
@@ -120,7 +119,7 @@ def _columns(asked: dict[str, Any]) -> dict[str, Any]:
         said += [
             f"{file.name}: {name} {_in(here[name])}, in {first.name} it {_in(unit)}"
             for name, unit in columns
-            if name in here and (si_unit(unit) or unit) != (si_unit(here[name]) or here[name])
+            if name in here and not same_unit(unit, here[name])
         ]
     return {"columns": columns, "said": said}
 
@@ -130,12 +129,9 @@ def _in(unit: str) -> str:
 
 
 def _numbers(asked: dict[str, Any]) -> dict[str, Any]:
-    from geocontact.io.text.side_table import read_side_table
-    from geocontact.systems.catalogue import SYSTEMS
+    from geocontact.analyses.gap.init.starts import needed_numbers
 
-    needs = next(each.needs for each in SYSTEMS if each.name == asked["model"])
-    tables = {name: read_side_table(Path(file)) for name, file in asked["tables"].items()}
-    return {"numbers": dict(needs.numbers(asked["channels"], tables)) if needs else {}, "said": []}
+    return {"numbers": needed_numbers(asked["model"], asked["channels"], asked["tables"]), "said": []}
 
 
 def _trials(asked: dict[str, Any]) -> dict[str, Any]:

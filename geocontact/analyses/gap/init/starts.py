@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from pathlib import Path
 
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import GapCase
+from geocontact.io.text.side_table import read_side_table
 from geocontact.systems.base import Base
+from geocontact.systems.catalogue import SYSTEMS
 
 
 def trial_numbers(starts: Mapping[str, float], trials: Collection[str]) -> dict[str, dict[str, float]]:
@@ -24,6 +27,13 @@ def shared_numbers(starts: Mapping[str, float], case: GapCase) -> dict[str, floa
     """Numbers that all trials have alike."""
     trials = [one.name for one in (*case.calibration, *case.evaluation)]
     return {name: value for name, value in starts.items() if name.rpartition(".")[0] not in trials}
+
+
+def needed_numbers(model: str, channels: Collection[str], files: Mapping[str, str]) -> dict[str, str]:
+    """Numbers with SI units that a model of the package needs; ValueError for a table that it cannot use."""
+    needs = next(each.needs for each in SYSTEMS if each.name == model)
+    tables = {name: read_side_table(Path(file)) for name, file in files.items()}
+    return dict(needs.numbers(channels, tables)) if needs is not None else {}
 
 
 def shipped_model(
