@@ -271,7 +271,7 @@ def test_a_unit_is_offered_where_the_file_states_none_that_is_known(tmp_path: Pa
     """A column in "degrees" is written in the unit that is chosen; one that is chosen for "" is not taken for "deg"."""
     client = Client(page(""), request=None)
     with client.content:
-        table = ColumnTable([("knee", "deg"), ("speed", ""), ("hip", "degrees")], "")
+        table = ColumnTable([("knee", "deg"), ("speed", ""), ("hip", "degrees")], None)
     assert list(labelled(client)) == ["knee is", "speed is", "unit of speed", "hip is", "unit of hip"]
     for label, value in {"knee is": "input", "hip is": "input", "speed is": "output", "unit of hip": "deg"}.items():
         change(client, label, value)
