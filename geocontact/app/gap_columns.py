@@ -5,18 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geocontact.analyses.frame.quantities import UNITS, is_known
+from geocontact.analyses.gap.chosen_columns import si_of
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
+from geocontact.systems.base import Base
 
 INPUT, OUTPUT = "input", "output"
-CHANNELS: dict[str, dict[str, tuple[str, ...]]] = {
-    "elbow": {INPUT: ("beta",), OUTPUT: ("force",)},
-    "knee": {
-        INPUT: ("flexion", "adduction", "area_medial", "area_lateral"),
-        OUTPUT: ("force_medial", "force_lateral"),
-    },
-}
-"""Channels of the package's models; a simulator of somebody's own has those of the columns' names."""
 
 
 class ColumnTable:
@@ -27,13 +21,15 @@ class ColumnTable:
     columns
         Names with units, "" where the file states none.
     model
-        Name of a model of the package, "" for another simulator.
+        A model of the package, whose channels have names; None for another simulator, which has the columns' names.
     """
 
-    def __init__(self, columns: Sequence[tuple[str, str]], model: str) -> None:
+    def __init__(self, columns: Sequence[tuple[str, str]], model: Base | None) -> None:
         self.columns = list(columns)
         self._model = model
-        self._role = {name: self._named(name) for name, _ in columns}
+        self._sides = {} if model is None else {INPUT: model.inputs, OUTPUT: model.outputs}
+        known = [each for names in self._sides.values() for each in names]
+        self._role = {name: name if name in known else "" for name, _ in columns}
         self._unit = {name: unit if is_known(unit) else "" for name, unit in columns}
         for name, unit in columns:
             with element("div", "field"), element("div", "in"):
@@ -58,23 +54,25 @@ class ColumnTable:
         sides = {f"{side}s": self._of(side) for side in (INPUT, OUTPUT)}
         return {option: ",".join(names) for option, names in sides.items() if names}
 
-    def outputs(self) -> list[str]:
-        """Channels that the model predicts."""
-        return list(CHANNELS[self._model][OUTPUT]) if self._model else self._of(OUTPUT)
+    def channels(self) -> list[str]:
+        """Channels that were chosen."""
+        return [self._channel(name) for name, role in self._role.items() if role]
+
+    def outputs(self) -> dict[str, str]:
+        """Channels that the model predicts, with their SI units, "" where none is known yet."""
+        units = {each["channel"]: si_of(each["unit"]) for each in self.rows()}
+        names = self._of(OUTPUT) if self._model is None else [each for each in self._model.outputs if each in units]
+        return {name: units[name] for name in names}
 
     def _of(self, side: str) -> list[str]:
         return [name for name, _ in self.columns if self._role[name] == side]
 
     def _roles(self) -> list[tuple[str, str]]:
-        if not self._model:
+        if self._model is None:
             return [("", "not used"), (INPUT, INPUT), (OUTPUT, OUTPUT)]
-        every = [(each, f"{side} {each}") for side, names in CHANNELS[self._model].items() for each in names]
+        units = self._model.needs.units if self._model.needs is not None else {}
+        every = [(n, f"{side} {n} [{units.get(n, '')}]") for side, names in self._sides.items() for n in names]
         return [("", "not used"), *every]
 
-    def _named(self, name: str) -> str:
-        """The channel that a column has the name of."""
-        known = [each for names in CHANNELS.get(self._model, {}).values() for each in names]
-        return name if name in known else ""
-
     def _channel(self, name: str) -> str:
-        return self._role[name] if self._model else name
+        return self._role[name] if self._model is not None else name

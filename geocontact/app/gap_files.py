@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import sys
 import warnings
@@ -35,10 +36,16 @@ def write_trials(files: Sequence[Path], rows: Sequence[Row], folder: Path) -> li
     return [wrong] if found is None else found["said"]
 
 
-def settings_of(folder: Path) -> dict[str, Any]:
-    """What case.toml of a begun case says; empty where it cannot be read."""
-    found, _ = answer_of(__name__, {"task": "settings", "folder": str(folder)})
-    return dict(found["settings"]) if found is not None and "settings" in found else {}
+def numbers_of(model: str, channels: Sequence[str], tables: Mapping[str, str]) -> tuple[dict[str, str], str]:
+    """Numbers that a model of the package needs with their SI units, or why that is not known."""
+    found, wrong = answer_of(__name__, {"task": "numbers", "model": model, "channels": channels, "tables": tables})
+    return ({}, wrong) if found is None else (found.get("numbers", {}), "; ".join(found["said"]))
+
+
+def settings_of(folder: Path) -> tuple[dict[str, Any], str]:
+    """What case.toml of a begun case says, or why it cannot be read."""
+    found, wrong = answer_of(__name__, {"task": "settings", "folder": str(folder)})
+    return ({}, wrong) if found is None else (found.get("settings", {}), "; ".join(found["said"]))
 
 
 def answer_questions(folder: Path, answers: Mapping[str, Any]) -> str:
@@ -69,6 +76,13 @@ def refused_name(simulator: Path) -> str:
     return f"{simulator.name}: a module of Python or of an installed package has this name; rename the file"
 
 
+def unreadable(simulator: Path) -> str:
+    """Why the file of a simulator cannot be read, "" where it can."""
+    if simulator.is_file() and os.access(simulator, os.R_OK):
+        return ""
+    return f"{simulator.name} cannot be read, or is there no more; choose it anew in step 1 and simulate the trials"
+
+
 def own_modules(case: Path, simulator: Path, kept: Path) -> tuple[Path, ...]:
     """Folders in which Python finds the model of a begun case: a new one with its adapter alone, then the simulator's.
 
@@ -93,16 +107,31 @@ def own_modules(case: Path, simulator: Path, kept: Path) -> tuple[Path, ...]:
 
 
 def _columns(asked: dict[str, Any]) -> dict[str, Any]:
-    from geocontact.analyses.gap.chosen_columns import recorded_columns
+    from geocontact.analyses.gap.chosen_columns import recorded_columns, same_unit
 
     first, *others = [Path(each) for each in asked["files"]]
     columns = recorded_columns(first)
-    names = {name for name, _ in columns}
     said = []
     for file in others:
-        lacking = sorted(names - {name for name, _ in recorded_columns(file)})
+        here = dict(recorded_columns(file))
+        lacking = sorted(name for name, _ in columns if name not in here)
         said += [f"{file.name}: lacks {', '.join(lacking)}, which {first.name} has"] if lacking else []
+        said += [
+            f"{file.name}: {name} {_in(here[name])}, in {first.name} it {_in(unit)}"
+            for name, unit in columns
+            if name in here and not same_unit(unit, here[name])
+        ]
     return {"columns": columns, "said": said}
+
+
+def _in(unit: str) -> str:
+    return f"is in {unit}" if unit else "has no unit"
+
+
+def _numbers(asked: dict[str, Any]) -> dict[str, Any]:
+    from geocontact.analyses.gap.init.starts import needed_numbers
+
+    return {"numbers": needed_numbers(asked["model"], asked["channels"], asked["tables"]), "said": []}
 
 
 def _trials(asked: dict[str, Any]) -> dict[str, Any]:
@@ -132,13 +161,19 @@ def _settings(asked: dict[str, Any]) -> dict[str, Any]:
 
 def answer(asked: dict[str, Any]) -> dict[str, Any]:
     """The answer to one question, in this process; a refusal stands in `said`."""
-    tasks = {"columns": _columns, "trials": _trials, "settings": _settings, "answers": _answers}
+    tasks = {
+        "columns": _columns,
+        "trials": _trials,
+        "numbers": _numbers,
+        "settings": _settings,
+        "answers": _answers,
+    }
     task = tasks[asked["task"]]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             found = task(asked)
-        except InputError as error:
+        except (ValueError, OSError) as error:  # a wrong table, a file that is gone by now
             return {"columns": [], "said": [str(error)]}
     doubts = dict.fromkeys(f"warning: {each.message}" for each in caught) if asked["task"] == "columns" else {}
     return {**found, "said": [*found["said"], *doubts]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,21 +23,19 @@ from geocontact.app.gap_files import (
     answer_questions,
     columns_of,
     new_folder,
+    numbers_of,
     own_modules,
     refused_name,
     settings_of,
+    unreadable,
     write_trials,
 )
-from geocontact.app.gap_questions import QuestionTable
+from geocontact.app.gap_questions import QuestionTable, StartTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
+from geocontact.systems.base import Base, CaseNeeds
 
 OWN = ""
-MODELS = (
-    (OWN, "my own simulator"),
-    ("elbow", "elbow: exoskeleton on a misaligned axis"),
-    ("knee", "knee: forces from areas"),
-)
 CASE = "case.toml"
 
 
@@ -59,8 +57,13 @@ class GapGuide:
         self._filled: dict[str, str] = {"model": OWN, "simulator": "", "trials": "", "numbers": ""}
         self._panels: dict[int, RunPanel] = {}
         self._first: Run | None = None
-        self._simulated, self._outputs = Path(), [""]
+        self._simulated, self._outputs = Path(), dict[str, str]()
+        self._base: Base | None = None
+        self._needs: CaseNeeds | None = None
         self._columns: ColumnTable | None = None
+        self._asked: object = None
+        self._typed_starts: dict[str, str] = {}
+        self._starts = StartTable({}, self._typed_starts)
         self._questions: QuestionTable | None = None
         with element("div", "work"):
             with element("div", "fields"):
@@ -85,10 +88,13 @@ class GapGuide:
         text("h2", "1. Model")
         with element("div", "field"):
             label = text("label", "model")
-            made = choice(MODELS, OWN, name="model").on("change", self._chosen_model, js_handler=VALUE)
+            shipped = [(name, f"{name}: {needs.words}") for name, (_, needs) in models().items()]
+            made = choice([(OWN, "my own simulator"), *shipped], OWN, name="model")
+            made.on("change", self._chosen_model, js_handler=VALUE)
             label.props["for"] = made.html_id
         words = "Python file with run(time, inputs, numbers), an .fmu, or a command with {params} {trial} {out}"
         self._simulator = self._typed("simulator", f"{words}. It is run.", "input")
+        self._place_tables = element("div")
         text("h2", "2. Trials")
         self._typed("trials", "A table (.csv, .sto, .mot) for each trial: four or more, of one kind.", "textarea")
         self._button("look at their columns", self._look_at_columns)
@@ -97,7 +103,8 @@ class GapGuide:
         self._place_columns = element("div", aria_live="polite")
         text("h2", "4. Measured beside simulated")
         words = "One a line: k=300, SI unit. Where nothing is said the simulator is asked."
-        self._typed("numbers", f"Start values of the model's numbers. {words}", "textarea", picks=False)
+        self._numbers = self._typed("numbers", f"Start values of the model's numbers. {words}", "textarea", picks=False)
+        self._place_starts = element("div", aria_live="polite")
         self._button("simulate the trials", self._simulate)
         self._said_first = text("p", "", "bad", role="alert")
         text("h2", "5. Answers")
@@ -126,9 +133,45 @@ class GapGuide:
 
     def _chosen_model(self, event: Any) -> None:
         self._filled["model"] = str(event.args)
-        self._simulator.set_visibility(self._filled["model"] == OWN)
+        self._base, self._needs = models().get(self._filled["model"], (None, None))
+        for own in (self._simulator, self._numbers):
+            own.set_visibility(self._base is None)
+        self._place_tables.clear()
+        with self._place_tables:
+            for name, columns in self._needed_tables().items():
+                self._filled[name] = ""
+                self._typed(name, f"A table (.csv) with the columns {', '.join(columns)}.", "input")
         if self._columns is not None:
             self._show_columns(self._columns.columns)
+
+    def _needed_tables(self) -> Mapping[str, tuple[str, ...]]:
+        return self._needs.tables if self._needs is not None else {}
+
+    def _tables(self) -> dict[str, str]:
+        """Files of the tables that were named."""
+        named = ((name, self._filled[name].strip()) for name in self._needed_tables())
+        return {name: str(self.queue.start / file) for name, file in named if file}
+
+    async def _ask_numbers(self) -> None:
+        """Fields for the numbers that a model of the package needs: they depend on channels, tables and trials."""
+        needs = self._needs
+        channels = self._columns.channels() if self._columns is not None and needs is not None else []
+        trials = [each.stem for each in self._trials()]
+        asked = (self._filled["model"], channels, self._tables(), trials)
+        if asked == self._asked:
+            return
+        self._asked = asked
+        units: dict[str, str] = {}
+        wrong = ""
+        if needs is not None and channels and len(self._tables()) == len(needs.tables):
+            units, wrong = await aside.io_bound(numbers_of, *asked[:3]) or ({}, "")
+            units = units | {f"{trial}.{name}": "-" for trial in trials for name in needs.per_trial if units}
+        self._said_first.text = wrong
+        self._place_starts.clear()
+        with self._place_starts:
+            if needs is not None and not units:
+                text("p", "Start values are asked for once tables and columns are chosen.", "help")
+            self._starts = StartTable(units, self._typed_starts)
 
     def _trials(self) -> list[Path]:
         lines = (line.strip() for line in self._filled["trials"].splitlines())
@@ -145,22 +188,24 @@ class GapGuide:
     def _show_columns(self, columns: list[tuple[str, str]]) -> None:
         self._place_columns.clear()
         with self._place_columns:
-            self._columns = ColumnTable(columns, self._filled["model"])
+            self._columns = ColumnTable(columns, self._base)
 
     async def _simulate(self) -> None:
         """Write the trials and call the model on each."""
         if self._columns is None or not (rows := self._columns.rows()):
             self._said_first.text = "choose columns first"
             return
-        own, model = self._filled["model"] == OWN, self._filled["model"]
-        simulator = self._filled["simulator"].strip() if own else model
+        own = self._base is None
+        simulator = self._filled["simulator"].strip() if own else self._filled["model"]
         file = _file_of(simulator, self.queue.start)
         if own and (wrong := refused_name(file)):
             self._said_first.text = wrong
             return
         data = new_folder(self._files / "recordings")
-        form = Form("gap init", {"data": str(data), "number": self._filled["numbers"], "simulator": simulator})
+        numbers = self._filled["numbers"] if own else self._starts.lines()
+        form = Form("gap init", {"data": str(data), "number": numbers, "simulator": simulator})
         form.values |= self._columns.sides() if own else {}
+        form.values["table"] = "\n".join(f"{name}={file}" for name, file in self._tables().items())
         outputs = self._columns.outputs()
         said = await aside.io_bound(write_trials, self._trials(), rows, data)
         self._said_first.text = "; ".join(said or [])
@@ -184,17 +229,22 @@ class GapGuide:
                 self.show(name, address, beside=k > 0)
             if run is self._first and run.state == "done":
                 await self._ask(run.out)
-            if run is self._first and run.message:
-                self._said_first.text = run.message
+            if run.message:
+                (self._said_first if run is self._first else self._said_case).text = run.message
+        await self._ask_numbers()
 
     async def _ask(self, case: Path) -> None:
         """The questions that a begun case leaves."""
-        settings = await aside.io_bound(settings_of, case)
-        if not settings or self._place_questions.is_deleted:
+        settings, wrong = await aside.io_bound(settings_of, case) or ({}, "")
+        if self._place_questions.is_deleted:
             return
         modules: tuple[Path, ...] = ()
-        if ":" in settings["system"]:  # a simulator of the user's own that Python imports
+        imported = ":" in settings.get("system", "")  # a simulator of the user's own that Python imports
+        if imported and not (wrong := unreadable(self._simulated)):
             modules = await aside.io_bound(own_modules, case, self._simulated, self._files) or ()
+        if wrong or not settings:
+            self._said_first.text = wrong
+            return
         with self._place_questions:
             self._questions = QuestionTable(settings, self._outputs)
             self._button("write the case", partial(self._write, case))
@@ -215,9 +265,18 @@ class GapGuide:
         return not wrong
 
     async def _diagnose(self, case: Path, system: str, modules: tuple[Path, ...]) -> None:
-        if await self._write(case):
+        if modules and (wrong := unreadable(self._simulated)):
+            self._said_case.text = wrong
+        elif await self._write(case):
             form = Form("gap diagnose", {"case": str(case), "run_simulator": system == "command"})
             self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), modules)
+
+
+def models() -> dict[str, tuple[Base, CaseNeeds]]:
+    """Models of the package that declare what they need, by name."""
+    from geocontact.systems.catalogue import SYSTEMS  # which takes a second, and no other page needs
+
+    return {each.name: (each, each.needs) for each in SYSTEMS if each.needs is not None}
 
 
 def _file_of(simulator: str, start: Path) -> Path:

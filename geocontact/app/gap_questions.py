@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from geocontact.analyses.gap.init.options import QUESTIONS
@@ -13,6 +13,30 @@ ENDS = ("start", "lower", "upper", "unit")
 UNKNOWN = "?"
 
 
+class StartTable:
+    """Start values of the numbers that a model of the package needs.
+
+    Parameters
+    ----------
+    units
+        SI units by name.
+    kept
+        What was typed, by name; stays when the fields are made anew.
+    """
+
+    def __init__(self, units: Mapping[str, str], kept: dict[str, str]) -> None:
+        self._units, self._kept = units, kept
+        for name, unit in units.items():
+            kept.setdefault(name, "")
+            with element("div", "field"), element("div", "in"):
+                text("span", f"{name} [{unit}]")
+                word(kept, name, f"start value of {name}")
+
+    def lines(self) -> str:
+        """Option `number` of `gap init`."""
+        return "\n".join(f"{name}={typed}" for name in self._units if (typed := self._kept[name].strip()))
+
+
 class QuestionTable:
     """Trials that are held out, numbers of the model with their bounds, noise of the sensors.
 
@@ -21,10 +45,10 @@ class QuestionTable:
     settings
         What case.toml says now, as `begun_settings` has it; questions that no field here answers are shown.
     outputs
-        Channels that the model predicts.
+        SI units of the channels that the model predicts, by name.
     """
 
-    def __init__(self, settings: Mapping[str, Any], outputs: Sequence[str]) -> None:
+    def __init__(self, settings: Mapping[str, Any], outputs: Mapping[str, str]) -> None:
         self._trials = [*settings["calibration"], *settings["evaluation"]]
         self._held = {name: name in settings["evaluation"] for name in self._trials}
         self._numbers: dict[str, dict[str, Any]] = {}
@@ -40,10 +64,10 @@ class QuestionTable:
                 self._box(self._held, name, f"hold out {name}")
         for name, said in settings.get("parameters", {}).items():
             self._number(name, said)
-        for name in outputs:
+        for name, unit in outputs.items():
             with element("div", "field"), element("div", "in"):
-                text("span", f"noise of {name}")
-                self._word(self._noise, name, f"noise of {name}, SI unit; estimated where empty")
+                text("span", f"noise of {name} [{unit}]")
+                word(self._noise, name, f"noise of {name}, SI unit; estimated where empty")
 
     def answers(self) -> dict[str, Any]:
         """Fields of `answer_case`; ValueError says which one is no number."""
@@ -61,20 +85,8 @@ class QuestionTable:
         with element("div", "field"), element("div", "in"):
             text("span", name)
             for end in ENDS:
-                self._word(self._numbers[name], end, f"{end} of {name}")
+                word(self._numbers[name], end, f"{end} of {name}")
             self._box(self._numbers[name], "fixed", f"{name} is known exactly")
-
-    def _word(self, kept: dict[str, Any], key: str, label: str) -> None:
-        made = element(
-            "input",
-            type="text",
-            defaultValue=str(kept[key]),
-            size=9,
-            aria_label=label,
-            placeholder=label.partition(" ")[0],
-        )
-        for event in ("change", "input"):
-            made.on(event, lambda e: kept.update({key: str(e.args)}), js_handler=VALUE)
 
     def _box(self, kept: dict[str, Any], key: str, label: str) -> None:
         with element("label"):
@@ -82,6 +94,14 @@ class QuestionTable:
             made.props.set_bool("checked", bool(kept[key]))
             made.on("change", lambda e: kept.update({key: bool(e.args)}), js_handler=CHECKED)
             text("span", f" {label}")
+
+
+def word(kept: dict[str, Any], key: str, label: str) -> None:
+    """A field whose text is kept."""
+    short = label.partition(" ")[0]
+    made = element("input", type="text", defaultValue=str(kept[key]), size=9, aria_label=label, placeholder=short)
+    for event in ("change", "input"):
+        made.on(event, lambda e: kept.update({key: str(e.args)}), js_handler=VALUE)
 
 
 def _number(typed: str, what: str) -> float:

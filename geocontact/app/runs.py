@@ -84,7 +84,9 @@ class Run:
     @property
     def message(self) -> str:
         """Why it was refused or failed: the last line on stderr that is no warning."""
-        return self.said[-1] if self.state in ("refused", "failed") and self.said else ""
+        if self.state not in ("refused", "failed"):
+            return ""
+        return self.said[-1] if self.said else f"it ended with code {self.code} and no message"
 
     @property
     def pages(self) -> dict[str, str]:

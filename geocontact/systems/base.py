@@ -2,13 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
 from typing import Any
+
+import pandas as pd
 
 from geocontact.chain.system import System
 from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
+
+
+@dataclass(frozen=True)
+class CaseNeeds:
+    """What a case of a base model has to give besides its channels, for whoever makes one.
+
+    Parameters
+    ----------
+    words
+        What the model is of, in a few words.
+    units
+        SI unit of each of its channels.
+    numbers
+        (channels of the trials, tables) → names of all numbers with their SI units; ValueError for a wrong table.
+    tables
+        Tables by name with their columns, all of them needed.
+    per_trial
+        Pure numbers that each trial has a value of its own of.
+    """
+
+    words: str
+    units: Mapping[str, str]
+    numbers: Callable[[Collection[str], Mapping[str, pd.DataFrame]], Mapping[str, str]]
+    tables: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    per_trial: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -26,6 +53,8 @@ class Base:
         `meshes` names some.
     meshes
         Names of the surfaces that it needs, `[mesh.<name>]` in case.toml.
+    needs
+        What else a case gives; None where the model does not declare it.
 
     Examples
     --------
@@ -42,6 +71,7 @@ class Base:
     outputs: tuple[str, ...]
     build: Callable[..., System]
     meshes: tuple[str, ...] = ()
+    needs: CaseNeeds | None = None
 
     def made(self, case: GapCase) -> Any:
         """What build gives for a case, a System if it is right.

@@ -31,7 +31,7 @@ from geocontact.chain.system import (
 from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 
 @kernel
@@ -139,13 +139,17 @@ def measured_force(loads: Loads) -> Float[np.ndarray, "t c"]:
     return loads.normal.copy()
 
 
+NUMBERS = {**dict.fromkeys(LENGTHS, "m"), "k": "N/m"}
+NEEDS = CaseNeeds("exoskeleton on a misaligned axis", UNITS, lambda _channels, _tables: NUMBERS)
+
+
 def build(
     parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
     parameters = tuple(replace(each, name=FORMER.get(each.name, each.name)) for each in parameters)
     constants = {FORMER.get(name, name): value for name, value in constants.items()}
-    require_numbers("elbow", (*LENGTHS, "k"), parameters, constants)
+    require_numbers("elbow", tuple(NUMBERS), parameters, constants)
     return System(
         name="elbow",
         motion=Motion(INPUTS),
@@ -162,4 +166,4 @@ def build(
     )
 
 
-ELBOW = Base("elbow", INPUTS, OUTPUTS, build)
+ELBOW = Base("elbow", INPUTS, OUTPUTS, build, needs=NEEDS)

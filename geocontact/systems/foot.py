@@ -19,12 +19,13 @@ from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 from geocontact.systems.foot_spheres import INPUTS, FootSpheres
 
 OUTPUTS = ("force_x", "force_y", "cop_x")
 UNITS = {"x": "m", "y": "m", "pitch": "rad", "force_x": "N", "force_y": "N", "cop_x": "m"}
-CONSTANTS = ("n", "delta_full", "mu_s", "mu_k", "v_th")
+CONSTANTS = {"n": "-", "delta_full": "m", "mu_s": "-", "mu_k": "-", "v_th": "m/s"}
+LETTERS = {"k": "N/m^n", "b": "N s/m"}
 COLUMNS = ("px [m]", "py [m]", "radius [m]", "zone")
 LEAST_FORCE = 20.0
 """Vertical force [N] below which a plate gives no centre of pressure."""
@@ -54,20 +55,30 @@ def without_centre(outputs: Channels, movement: DifferentiatedInputs, values: Va
     return out
 
 
-def build(
-    parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
-) -> System:
-    """The base model; ValueError when a table, column or number that it needs is missing."""
+def zones_of(tables: Mapping[str, pd.DataFrame]) -> tuple[str, ...]:
+    """Zone of each sphere; ValueError when there is no table of spheres, or when it is none."""
     if "spheres" not in tables:
         raise ValueError('foot: the table of spheres is missing; name it in case.toml, spheres = "spheres.csv"')
     table = tables["spheres"]
     for column in COLUMNS:
         if column not in table.columns:
             raise ValueError(f"foot: the spheres have no column {column!r}; they have {', '.join(map(str, table))}")
-    zones = tuple(str(zone) for zone in table["zone"])
-    needed = [f"{letter}_{zone}" for letter in "kb" for zone in dict.fromkeys(zones)]
-    require_numbers("foot", (*needed, *CONSTANTS), parameters, constants)
-    place = [np.ascontiguousarray(table[column], float) for column in COLUMNS[:3]]
+    return tuple(str(zone) for zone in table["zone"])
+
+
+def numbers_of(zones: tuple[str, ...]) -> dict[str, str]:
+    """Stiffness and damping of each zone, and what all have alike, with SI units."""
+    own = {f"{letter}_{zone}": unit for letter, unit in LETTERS.items() for zone in dict.fromkeys(zones)}
+    return own | CONSTANTS
+
+
+def build(
+    parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
+) -> System:
+    """The base model; ValueError when a table, column or number that it needs is missing."""
+    zones = zones_of(tables)
+    require_numbers("foot", tuple(numbers_of(zones)), parameters, constants)
+    place = [np.ascontiguousarray(tables["spheres"][column], float) for column in COLUMNS[:3]]
     return System(
         name="foot",
         motion=Motion(INPUTS),
@@ -85,4 +96,10 @@ def build(
     )
 
 
-FOOT = Base("foot", INPUTS, OUTPUTS, build)
+NEEDS = CaseNeeds(
+    "prosthetic foot of spheres on level ground",
+    UNITS,
+    lambda _channels, tables: numbers_of(zones_of(tables)),
+    {"spheres": COLUMNS},
+)
+FOOT = Base("foot", INPUTS, OUTPUTS, build, needs=NEEDS)

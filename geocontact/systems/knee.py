@@ -26,7 +26,7 @@ from geocontact.chain.system import System
 from geocontact.chain.traits import Migration, Traits
 from geocontact.contact.area_hertz import disc_force
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 AREAS = ("area_medial", "area_lateral")
 KNEE_GEOMETRY = LawParameters(
@@ -117,11 +117,15 @@ def measured_forces(loads: Loads) -> Float[np.ndarray, "t c"]:
     return loads.normal.copy()
 
 
+NUMBERS = {"R": "m", "E_star": "Pa"}
+NEEDS = CaseNeeds("forces of an implant from areas", UNITS, lambda _channels, _tables: NUMBERS)
+
+
 def build(
     parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
-    require_numbers("knee", ("R", "E_star"), parameters, constants)
+    require_numbers("knee", tuple(NUMBERS), parameters, constants)
     return System(
         name="knee",
         motion=Motion(INPUTS),
@@ -139,4 +143,4 @@ def build(
     )
 
 
-KNEE = Base("knee", INPUTS, OUTPUTS, build)
+KNEE = Base("knee", INPUTS, OUTPUTS, build, needs=NEEDS)

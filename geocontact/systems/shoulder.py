@@ -13,7 +13,7 @@ I e'' + c e' = level τ(e) - m g l_c sin e + N s. A trial starts at rest in equi
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -29,7 +29,7 @@ from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System, require_convergence, towards
 from geocontact.chain.traits import Mass, Migration, Traits, Way
 from geocontact.data.parameter import Parameter
-from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 from geocontact.systems.shoulder_motion import HINGED_ARM, LONGEST, swing
 from geocontact.systems.shoulder_slopes import swing_slopes
 
@@ -135,7 +135,8 @@ class ShoulderArm:
 INPUTS, OUTPUTS = ("arm", "event"), ("exo", "force")
 UNITS = {"arm": "rad", "event": "-", "exo": "rad", "force": "N"}
 LENGTHS = ("L_h", "o_x", "o_y", "l_c")
-NUMBERS = ("L_h", "o_x", "o_y", "I", "c", "l_c", "m")
+NUMBERS = {"L_h": "m", "o_x": "m", "o_y": "m", "I": "kg m^2", "c": "N m s/rad", "l_c": "m", "m": "kg"}
+LAW = {"k_t": "N/m", "b_t": "N s/m"}
 COLUMNS = ("angle [rad]", "torque [N m]")
 TRAITS = Traits(
     way=Way(3.0, "deflection"),
@@ -172,8 +173,8 @@ def build(
 ) -> System:
     """The base model; ValueError when a table, column or number that it needs is missing."""
     table = support_table(tables)
-    require_numbers("shoulder", (*NUMBERS, "k_t", "b_t"), parameters, constants)
-    inertia = {**constants, **{p.name: p.lower for p in parameters}}["I"]
+    require_numbers("shoulder", (*NUMBERS, *LAW), parameters, constants)
+    inertia = {**constants, **{p.name: p.start if p.fixed else p.lower for p in parameters}}["I"]
     if not inertia > 0.0:
         raise ValueError(f"shoulder: the moment of inertia I = {inertia:g} kg m^2 is not positive")
     law = Law(INTERFACE_LAW).having({"k": "k_t", "b": "b_t"}).lacking("asymmetry.excess")
@@ -195,4 +196,11 @@ def build(
     )
 
 
-SHOULDER = Base("shoulder", INPUTS, OUTPUTS, build)
+def numbers_of(_channels: Collection[str], tables: Mapping[str, pd.DataFrame]) -> dict[str, str]:
+    """All numbers with SI units; ValueError for a wrong table."""
+    support_table(tables)
+    return NUMBERS | LAW
+
+
+NEEDS = CaseNeeds("exoskeleton that supports a raised arm", UNITS, numbers_of, {"support": COLUMNS}, ("level",))
+SHOULDER = Base("shoulder", INPUTS, OUTPUTS, build, needs=NEEDS)

@@ -11,7 +11,7 @@ k_n_<site> [N/m], rho_<site> [m]; constant b [N s/m].
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +27,7 @@ from geocontact.chain.system import System, require_convergence
 from geocontact.chain.traits import Role, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.geometry.kernels.compile import kernel
-from geocontact.systems.base import Base, require_numbers
+from geocontact.systems.base import Base, CaseNeeds, require_numbers
 
 SITE_GEOMETRY = LawParameters(
     {
@@ -176,6 +176,23 @@ def sites_of(parameters: tuple[Parameter, ...], constants: Mapping[str, float]) 
     return tuple(site for site in SITES if site in named)
 
 
+def units_of(sites: tuple[str, ...]) -> dict[str, str]:
+    """SI units of the channels."""
+    inputs = {f"{site}_{motion}": unit for site in sites for motion, unit in MOTIONS.items()}
+    return inputs | {f"{site}_force": "N" for site in sites}
+
+
+def numbers_of(sites: tuple[str, ...]) -> dict[str, str]:
+    """Numbers of the sites with SI units."""
+    own = {f"{number}_{site}": unit for number, unit in (("k_n", "N/m"), ("rho", "m")) for site in sites}
+    return own | {"b": "N s/m"}
+
+
+def recorded_sites(names: Collection[str]) -> tuple[str, ...]:
+    """Sites with a channel among these names, all where none has."""
+    return tuple(site for site in SITES if any(each.startswith(f"{site}_") for each in names)) or SITES
+
+
 def measured_forces(loads: Loads) -> Float[np.ndarray, "t c"]:
     """Each site's load is an output."""
     return loads.normal.copy()
@@ -186,11 +203,9 @@ def build(
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
     sites = sites_of(parameters, constants)
-    needed = [f"{number}_{site}" for number in ("k_n", "rho") for site in sites]
-    require_numbers("sit_to_stand", (*needed, "b"), parameters, constants)
+    require_numbers("sit_to_stand", tuple(numbers_of(sites)), parameters, constants)
     inputs, outputs = channels(sites)
     law = {f"{site}.k": f"k_n_{site}" for site in sites} | {f"{site}.b": "b" for site in sites}
-    units = {f"{site}_{motion}": unit for site in sites for motion, unit in MOTIONS.items()}
     traits = Traits(
         roles={f"{site}_{motion}": role for site in sites for motion, role in ROLES.items()},
         pushes_only=True,
@@ -207,12 +222,17 @@ def build(
         parameters=parameters,
         constants=dict(constants),
         scale=Magnitudes(),
-        units={**units, **dict.fromkeys(outputs, "N")},
+        units=units_of(sites),
         spare=tuple(f"{site}_tangential" for site in sites),
         places=sites,
         traits=traits,
     )
 
 
-SIT_TO_STAND = Base("sit_to_stand", *channels(SITES), build)
+NEEDS = CaseNeeds(
+    "exoskeleton strapped to a body that stands up",
+    units_of(SITES),
+    lambda names, _tables: numbers_of(recorded_sites(names)),
+)
+SIT_TO_STAND = Base("sit_to_stand", *channels(SITES), build, needs=NEEDS)
 """Channels are those of all sites; a case may have fewer."""

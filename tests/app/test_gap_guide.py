@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -23,13 +24,16 @@ from nicegui.page import page
 from geocontact.analyses.frame.rerun import differing, results_of
 from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.app.fields import Form
-from geocontact.app.gap_columns import CHANNELS, ColumnTable
+from geocontact.app.gap_columns import ColumnTable
 from geocontact.app.gap_files import answer_questions, columns_of, own_modules, refused_name, write_trials
-from geocontact.app.gap_guide import GapGuide, _finding
+from geocontact.app.gap_guide import GapGuide, _finding, models
 from geocontact.app.gap_questions import QuestionTable
 from geocontact.app.runs import Queue, Run
-from geocontact.systems.elbow import ELBOW
-from geocontact.systems.knee import KNEE
+from geocontact.systems.catalogue import SYSTEMS
+from geocontact.systems.sit_to_stand import SIT_TO_STAND
+from tests.analyses.gap.shipped_cases import MODELS, written
+from tests.analyses.gap.strut_fmu import built
+from tests.analyses.gap.test_init import recordings
 from tests.app.conftest import Window
 from tests.app.test_window import run_words, until
 from tests.browsers import awaited
@@ -56,10 +60,15 @@ def strut_trials(folder: Path, count: int = 4) -> list[Path]:
     return files
 
 
-def test_channels_of_the_models_are_theirs() -> None:
-    assert {name: (each["input"], each["output"]) for name, each in CHANNELS.items()} == {
-        base.name: (base.inputs, base.outputs) for base in (ELBOW, KNEE)
-    }
+def test_channels_of_a_model_stand_with_their_units() -> None:
+    """A column with the name of a channel is that channel; of others nothing is chosen."""
+    client = Client(page(""), request=None)
+    with client.content:
+        table = ColumnTable([("thigh_normal", "mm"), ("thigh_force", "N"), ("other", "N")], SIT_TO_STAND)
+    assert table.outputs() == {"thigh_force": "N"} and table.channels() == ["thigh_normal", "thigh_force"]
+    words = labelled(client)["other is"].props["innerHTML"]
+    assert "input thigh_normal [m]" in words and "output shank_force [N]" in words
+    assert set(models()) == {base.name for base in SYSTEMS}
 
 
 def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
@@ -67,6 +76,11 @@ def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
     assert columns_of(files) == ([("knee", "deg"), ("load", ""), ("idle", "")], [])
     (tmp_path / "raw" / "t3.csv").write_text("time [s],knee [deg]\n0,1\n1,2\n")
     assert columns_of([*files, tmp_path / "raw" / "t3.csv"])[1] == ["t3.csv: lacks idle, load, which t1.csv has"]
+    (tmp_path / "raw" / "t3.csv").write_text("time [s],knee [rad],load [N],idle\n0,1,1,1\n1,2,1,1\n")
+    assert columns_of([*files, tmp_path / "raw" / "t3.csv"])[1] == [
+        "t3.csv: knee is in rad, in t1.csv it is in deg",
+        "t3.csv: load is in N, in t1.csv it has no unit",
+    ]
     rows = [{"column": "load", "channel": "torque", "unit": "N m"}]
     (tmp_path / "out").mkdir()
     assert write_trials(files, rows, tmp_path / "out") == []
@@ -100,13 +114,15 @@ class Pressed:
         filled = {"model": "", "simulator": str(simulator), "trials": "\n".join(map(str, trials)), "numbers": ""}
         label = SimpleNamespace(text="", clear=lambda: None)
         self.rows = [{"column": "load", "channel": "load", "unit": "N m"}]
-        columns = SimpleNamespace(rows=lambda: self.rows, sides=dict, outputs=lambda: ["load"])
+        columns = SimpleNamespace(rows=lambda: self.rows, sides=dict, outputs=lambda: {"load": "N m"})
         vars(self.guide).update(
             queue=SimpleNamespace(start=folder),
             _files=folder / "files",
             _out=folder / "case",
             _filled=filled,
             _columns=columns,
+            _base=None,
+            _needs=None,
             _said_first=label,
             _place_questions=label,
             _queued=self._queued,
@@ -138,6 +154,26 @@ def test_each_press_has_recordings_of_its_own(tmp_path: Path) -> None:
     assert "no column 'gone'" in first.press() and sorted((tmp_path / "files").iterdir()) == there
 
 
+def test_what_is_gone_between_two_steps_is_said_in_one_line(tmp_path: Path) -> None:
+    """A simulator that was deleted, and one that ended Python before the case was written."""
+    simulator, case = tmp_path / "strut_model.py", tmp_path / "case"
+    guide = Pressed(tmp_path, [], simulator).guide
+    said = SimpleNamespace(text="")
+    vars(guide).update(_place_questions=SimpleNamespace(is_deleted=False), _simulated=simulator, _said_case=said)
+    awaited(guide._ask(case))
+    assert guide._said_first.text.startswith(f"{case / 'case.toml'}: there is no such file")
+    case.mkdir()
+    (case / "case.toml").write_text('format = 1\nsystem = "strut_model_adapter:SIMULATOR"\n')
+    awaited(guide._ask(case))
+    assert guide._said_first.text.startswith("strut_model.py cannot be read")
+    awaited(guide._diagnose(case, "strut_model_adapter:SIMULATOR", (tmp_path,)))
+    assert said.text == guide._said_first.text
+    gone = write_trials([tmp_path / "t1.csv"], [{"column": "x", "channel": "x", "unit": "m"}], tmp_path / "no folder")
+    assert len(gone) == 1 and "t1.csv" in gone[0]
+    run = Run([], case, "", state="failed", code=-11)
+    assert run.message == "it ended with code -11 and no message"
+
+
 def test_a_simulator_with_the_name_of_another_module_is_refused(tmp_path: Path) -> None:
     """`gap init` would run the file, and the diagnosis the module."""
     for name in ("profile", "numpy"):
@@ -146,12 +182,18 @@ def test_a_simulator_with_the_name_of_another_module_is_refused(tmp_path: Path) 
     assert refused_name(tmp_path / "strut_model.py") == ""
 
 
+async def nothing() -> None:
+    """In the place of what a test does not look at."""
+
+
 def test_all_pages_of_a_run_are_shown() -> None:
     guide = GapGuide.__new__(GapGuide)
     shown: list[tuple[str, str, bool]] = []
     run = SimpleNamespace(pages={"a": "1", "b": "2"}, message="")
     panel = SimpleNamespace(run=run, refresh=lambda: True)
-    vars(guide).update(_panels={1: panel}, _first=None, show=lambda *page, beside: shown.append((*page, beside)))
+    vars(guide).update(
+        _panels={1: panel}, _first=None, _ask_numbers=nothing, show=lambda *page, beside: shown.append((*page, beside))
+    )
     awaited(guide._look())
     assert shown == [("a", "1", False), ("b", "2", True)]
 
@@ -229,7 +271,7 @@ def test_a_unit_is_offered_where_the_file_states_none_that_is_known(tmp_path: Pa
     """A column in "degrees" is written in the unit that is chosen; one that is chosen for "" is not taken for "deg"."""
     client = Client(page(""), request=None)
     with client.content:
-        table = ColumnTable([("knee", "deg"), ("speed", ""), ("hip", "degrees")], "")
+        table = ColumnTable([("knee", "deg"), ("speed", ""), ("hip", "degrees")], None)
     assert list(labelled(client)) == ["knee is", "speed is", "unit of speed", "hip is", "unit of hip"]
     for label, value in {"knee is": "input", "hip is": "input", "speed is": "output", "unit of hip": "deg"}.items():
         change(client, label, value)
@@ -255,8 +297,9 @@ def test_questions_that_no_field_answers_are_shown() -> None:
     settings = {"calibration": ["t1"], "evaluation": ["t2"], "parameters": {"k": number}, "noise": {"M": 0.1}}
     client = Client(page(""), request=None)
     with client.content:
-        table = QuestionTable({**settings, QUESTIONS: ["are M the outputs?"]}, ["M"])
+        table = QuestionTable({**settings, QUESTIONS: ["are M the outputs?"]}, {"M": "N m"})
     words = [one.text for one in client.elements.values() if isinstance(one, TextElement)]
+    assert "noise of M [N m]" in words
     assert words[words.index("Open, and kept in case.toml as comments:") + 1] == "are M the outputs?"
     change(client, "lower of k", "10")
     change(client, "upper of k", "200")
@@ -268,7 +311,7 @@ def test_questions_that_no_field_answers_are_shown() -> None:
     }
     none = Client(page(""), request=None)
     with none.content:
-        QuestionTable({**settings, QUESTIONS: []}, ["M"])
+        QuestionTable({**settings, QUESTIONS: []}, {"M": "N m"})
     assert not any("kept in" in one.text for one in none.elements.values() if isinstance(one, TextElement))
 
 
@@ -279,16 +322,34 @@ def finished(tab: Page, count: int) -> str:
     return str(tab.evaluate(f"({states}).at(-1)"))
 
 
-def begin(tab: Page, files: list[Path], columns: dict[str, str], units: dict[str, str], numbers: str) -> str:
-    """Trials are dropped, columns are chosen, and the model is called on them."""
+def assert_same_answer(*files: Path) -> None:
+    """Two files diagnosis.json say the same, but for how long it took."""
+    one, other = (json.loads(file.read_text("utf-8")) for file in files)
+    assert one.pop("seconds") > 0.0 and other.pop("seconds") > 0.0
+    assert len(one) > 10 and one == other
+
+
+def look_at(tab: Page, files: list[Path]) -> None:
+    """Trials are dropped, and their columns are shown."""
     tab.locator('.field:has([name="trials"]) .pick input').set_input_files(files)
     until(tab, f"document.querySelector('[name=trials]').value.split('\\n').length === {len(files)}", 30.0)
     tab.get_by_role("button", name="look at their columns").click()
+
+
+def begin(tab: Page, files: list[Path], columns: dict[str, str], units: dict[str, str], numbers: str) -> str:
+    """Columns of trials are chosen, and the model is called on them."""
+    look_at(tab, files)
     for column, role in columns.items():
         tab.get_by_label(f"{column} is", exact=True).select_option(role)
     for column, unit in units.items():
         tab.get_by_label(f"unit of {column}", exact=True).select_option(unit)
-    tab.locator('[name="numbers"]').fill(numbers)
+    if numbers:
+        tab.locator('[name="numbers"]').fill(numbers)
+    return simulated(tab)
+
+
+def simulated(tab: Page) -> str:
+    """State of the first run."""
     tab.wait_for_timeout(500)
     tab.get_by_role("button", name="simulate the trials").click()
     return finished(tab, 1)
@@ -348,6 +409,34 @@ def test_a_simulator_of_ones_own_from_columns_to_the_diagnosis(window: Window, t
     tab.close()
 
 
+@pytest.mark.oracle
+@pytest.mark.slow
+def test_an_fmu_from_columns_to_the_diagnosis(window: Window, tmp_path: Path) -> None:
+    """Numbers are those of the FMU's own description; the answer is that of `gap diagnose` beside its adapter."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    fmu = built(tmp_path / "strut.fmu", compiler)
+    files = []
+    for file in sorted(recordings(tmp_path / "raw", samples=40).glob("*.csv")):
+        files.append(tmp_path / file.name)
+        files[-1].write_bytes(file.read_bytes())
+    tab = window.tab("gap-case")
+    tab.locator('.field:has([name="simulator"]) .pick input').set_input_files(fmu)
+    until(tab, "document.querySelector('[name=simulator]').value.endsWith('strut.fmu')", 30.0)
+    state = begin(tab, files, {"angle": "input", "torque": "output"}, {}, "")
+    assert ": done" in state, tab.locator(".side").inner_text()
+    tab.get_by_role("button", name="diagnose").click(timeout=60_000)
+    assert ": done" in finished(tab, 2), tab.locator(".side").inner_text()
+    case = window.folder / state.partition(":")[0]
+    shutil.copytree(case, tmp_path / case.name)
+    shutil.copy(case / "strut_adapter.py", tmp_path)
+    run_words(["gap", "diagnose", case.name, "--bare", "--out=answer"], tmp_path)
+    diagnosed = case.with_name(f"{case.name}-diagnosis-1") / "diagnosis.json"
+    assert_same_answer(diagnosed, tmp_path / "answer" / "diagnosis.json")
+    tab.close()
+
+
 @pytest.mark.slow
 def test_a_model_of_the_package_on_its_own_simulated_recordings(window: Window, tmp_path: Path) -> None:
     """Recordings of `elbow simulate`: channels are chosen by name, the error is that of the true numbers."""
@@ -363,13 +452,13 @@ def test_a_model_of_the_package_on_its_own_simulated_recordings(window: Window, 
         files[-1].write_text("\n".join(["time [s],angle,cuff", *rows]) + "\n")
     tab = window.tab("gap-case")
     tab.locator('[name="model"]').select_option("elbow")
-    state = begin(
-        tab,
-        files,
-        {"angle": "beta", "cuff": "force"},
-        {"angle": "deg", "cuff": "N"},
-        "\n".join(f"{name}={value!r}" for name, value in numbers.items()),
-    )
+    look_at(tab, files)
+    for column, channel, unit in (("angle", "beta", "deg"), ("cuff", "force", "N")):
+        tab.get_by_label(f"{column} is", exact=True).select_option(channel)
+        tab.get_by_label(f"unit of {column}", exact=True).select_option(unit)
+    for name, value in numbers.items():
+        tab.get_by_label(f"start value of {name}", exact=True).fill(repr(value))
+    state = simulated(tab)
     assert ": done" in state, tab.locator(".side").inner_text()
     case = window.folder / state.partition(":")[0]
     words = ["gap", "init", "--simulator=elbow", f"--data={made / 'trials'}", "--out=begun"]
@@ -381,4 +470,61 @@ def test_a_model_of_the_package_on_its_own_simulated_recordings(window: Window, 
     assert tab.evaluate("document.documentElement.scrollWidth") <= 390
     nameless = "[...document.querySelectorAll('input, select, textarea')].filter(e => !e.labels.length && !e.ariaLabel)"
     assert tab.evaluate(f"{nameless}.map(e => e.outerHTML)") == []
+    tab.close()
+
+
+def picture(tab: Page, name: str) -> None:
+    """Screenshots at two widths, where a folder for them is named."""
+    if folder := os.environ.get("GEOCONTACT_PICTURES"):
+        for width in (1280, 390):
+            tab.set_viewport_size({"width": width, "height": 900})
+            tab.screenshot(path=f"{folder}/{name}-{width}.png", full_page=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MODELS)
+def test_what_a_model_needs_is_asked_until_the_case_is_that_written_by_hand(
+    window: Window, tmp_path: Path, name: str
+) -> None:
+    """Tables, numbers and those of single trials; for one model also the numbers of the diagnosis."""
+    hand = tmp_path / "hand"
+    case = written(name, hand)
+    trials = (*case.calibration, *case.evaluation)
+    tab = window.tab("gap-case")
+    tab.locator('[name="model"]').select_option(name)
+    for table in case.tables:
+        tab.locator(f'.field:has([name="{table}"]) .pick input').set_input_files(hand / f"{table}.csv")
+        until(tab, f"document.querySelector('[name={table}]').value.endsWith('{table}.csv')", 30.0)
+    look_at(tab, sorted((hand / "trials").glob("*.csv")))
+    starts = case.constants | {each.name: each.start for each in case.parameters}
+    starts |= {f"{one.name}.{key}": value for one in trials for key, value in one.covariates.items()}
+    for number, value in starts.items():
+        tab.get_by_label(f"start value of {number}", exact=True).fill(repr(value), timeout=120_000)
+    assert tab.locator('[aria-label^="start value of"]').count() == len(starts)
+    state = simulated(tab)
+    assert ": done" in state, tab.locator(".side").inner_text()
+    shown = tab.frame_locator(".pages iframe").locator("body").inner_text(timeout=60_000)
+    outputs = next(base.outputs for base in SYSTEMS if base.name == name)
+    assert all(f"{each}, t1" in shown for each in case.calibration[0].signals.channels if each in outputs)
+    for number in case.constants:
+        tab.get_by_label(f"{number} is known exactly", exact=True).check(timeout=60_000)
+    for each in case.parameters:
+        tab.get_by_label(f"lower of {each.name}", exact=True).fill(repr(each.lower))
+        tab.get_by_label(f"upper of {each.name}", exact=True).fill(repr(each.upper))
+        assert tab.get_by_label(f"unit of {each.name}", exact=True).input_value() == each.unit
+    tab.wait_for_timeout(500)
+    tab.get_by_role("button", name="write the case").click()
+    until(tab, "document.querySelector('.why[role=status]')?.textContent.includes('written: ')", 120.0)
+    picture(tab, name)
+    made = window.folder / state.partition(":")[0]
+    both = [tomllib.loads((each / "case.toml").read_text("utf-8")) for each in (made, hand)]
+    assert both[0] == both[1]
+    if name == "sit_to_stand":
+        tab.get_by_role("button", name="diagnose").click()
+        assert ": done" in finished(tab, 2), tab.locator(".side").inner_text()
+        picture(tab, "diagnosed")
+        hand.rename(tmp_path / made.name)
+        run_words(["gap", "diagnose", made.name, "--bare", "--out=answer"], tmp_path)
+        diagnosed = made.with_name(f"{made.name}-diagnosis-1") / "diagnosis.json"
+        assert_same_answer(diagnosed, tmp_path / "answer" / "diagnosis.json")
     tab.close()

@@ -40,6 +40,17 @@ def recorded_columns(path: Path) -> list[tuple[str, str]]:
     return list(zip(table.channels, table.units, strict=True))
 
 
+def si_of(unit: str) -> str:
+    """SI unit of the same dimension, "" where the unit is not known."""
+    known = si_unit(unit)
+    return known[0] if known else ""
+
+
+def same_unit(one: str, other: str) -> bool:
+    """Whether two files state the same unit, however it is spelled; words that are no unit by their letters."""
+    return (si_unit(one) or one) == (si_unit(other) or other)
+
+
 def write_chosen(path: Path, chosen: Sequence[ChosenColumn], out: Path) -> None:
     """Write these columns as a trial: time in s, numbers as the file has them, names and units in the header.
 

@@ -44,8 +44,7 @@ def write_gap_case(
         raise ValueError("a case with meshes is not written: its surfaces belong to files, which it does not know")
     home, wanted = Path(folder), units or {}
     write_trials(case, home, wanted, digits)
-    for key, table in case.tables.items():
-        table.to_csv(home / _file_of(key), index=False, lineterminator="\n")
+    write_tables(case, home)
     for site, cells in case.cells.items():
         _write_cells(home, site, cells, digits)
     (home / SETTINGS).write_text("\n".join(_settings(case, wanted)) + "\n", encoding="utf-8", newline="\n")
@@ -60,7 +59,14 @@ def write_trials(case: GapCase, home: Path, units: Mapping[str, str] | None = No
         table.to_csv(file, index=False, float_format=f"%.{digits}g", lineterminator="\n")
 
 
-def _file_of(key: str) -> str:
+def write_tables(case: GapCase, home: Path) -> None:
+    """Write the tables only, <key>.csv."""
+    for key, table in case.tables.items():
+        table.to_csv(home / file_of(key), index=False, lineterminator="\n")
+
+
+def file_of(key: str) -> str:
+    """File name of a table."""
     return f"{key}.csv"
 
 
@@ -104,7 +110,7 @@ def _settings(case: GapCase, units: Mapping[str, str]) -> Iterator[str]:
     yield f"calibration = {_words(case.calibration)}"
     yield f"evaluation = {_words(case.evaluation)}"
     for key in case.tables:
-        yield f"{toml_key(key)} = {_word(_file_of(key))}"
+        yield f"{toml_key(key)} = {_word(file_of(key))}"
     yield from _section("layout", {site: _word(_layout_file(site)) for site in case.cells})
     si = dict(zip(case.calibration[0].signals.channels, case.calibration[0].signals.units, strict=True))
     noise = {name: sd / _per_unit(name, si[name], units.get(name, si[name])) for name, sd in case.noise.items()}

@@ -14,6 +14,8 @@ from geocontact.analyses.gap.chosen_columns import ChosenColumn, recorded_column
 from geocontact.analyses.gap.init.answers import AnsweredNumber, answer_case, begun_settings
 from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.io.cases.trial_table import read_trial
+from geocontact.systems.catalogue import SYSTEMS
+from tests.analyses.gap.shipped_cases import MODELS, written
 
 RADIUS = 0.037
 
@@ -80,7 +82,7 @@ def test_answers_make_the_case_that_a_diagnosis_reads(tmp_path: Path) -> None:
     found = tomllib.loads((case / "case.toml").read_text("utf-8"))
     assert (found["calibration"], found["evaluation"]) == (["t1", "t3"], ["t2", "t4"])
     assert found["system"] == "knee" and found["noise"] == {"force_medial": 2.0}
-    assert found["parameters"]["R"] == {"start": RADIUS, "fixed": True, "unit": "m"}
+    assert found["constants"] == {"R": RADIUS} and list(found["parameters"]) == ["E_star"]
     assert found["parameters"]["E_star"] == {"start": 5e6, "lower": 1e6, "upper": 5e7, "unit": "Pa"}
     assert "?" not in found["parameters"]["E_star"].values()
     read = gc.read_gap_case(case)
@@ -269,9 +271,61 @@ def test_a_shipped_model_has_channels_of_its_own_and_asks_for_its_numbers(tmp_pa
     data.mkdir()
     for file in raw.glob("*.csv"):
         write_chosen(file, CHOSEN, data / file.name)
-    with pytest.raises(gc.InputError, match=r"(E_star|R) is missing"):
+    with pytest.raises(gc.InputError, match=r"knee needs R \[m\], E_star \[Pa\]; give each"):
         gc.init_gap_case(simulator="knee", data=data)
     with pytest.raises(gc.InputError, match="channels of the model knee are"):
         gc.init_gap_case(simulator="knee", data=data, outputs="force_medial")
-    with pytest.raises(gc.InputError, match=r"there is no file 'ankle'.*elbow or knee"):
+    with pytest.raises(gc.InputError, match=r"there is no file 'ankle'.*elbow, foot, shoulder, knee"):
         gc.init_gap_case(simulator="ankle", data=data)
+    (tmp_path / "s.csv").write_text("px [m]\n1\n")
+    with pytest.raises(gc.InputError, match="knee has no table spheres; it takes none"):
+        gc.init_gap_case(simulator="knee", data=data, table=(f"spheres={tmp_path / 's.csv'}",))
+    swapped = (ChosenColumn("A_med", "flexion", "mm^2"), *CHOSEN[1:2], ChosenColumn("flexion", "area_medial", "deg"))
+    for file in data.glob("*.csv"):
+        write_chosen(tmp_path / "raw" / file.name, (*swapped, *CHOSEN[3:]), file)
+    with pytest.raises(gc.InputError, match=r"needs flexion in rad, the trials give m\^2"):
+        gc.init_gap_case(simulator="knee", data=data, number={"E_star": 5e6, "R": RADIUS})
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n == "shoulder")) for n in MODELS])
+def test_every_model_of_the_package_can_be_begun(name: str, tmp_path: Path) -> None:
+    """A sixth of what was measured is missed; with answers the case is the one that was written by hand."""
+    hand = tmp_path / "hand"
+    case = written(name, hand)
+    trials = (*case.calibration, *case.evaluation)
+    numbers = case.constants | {each.name: each.start for each in case.parameters}
+    numbers |= {f"{one.name}.{key}": value for one in trials for key, value in one.covariates.items()}
+    asked = {"simulator": name, "data": hand / "trials", "table": [f"{each}={hand / each}.csv" for each in case.tables]}
+    for lacking in (next(iter(numbers)), list(numbers)[-1]):
+        some = {each: value for each, value in numbers.items() if each != lacking}
+        with pytest.raises(gc.InputError, match=rf"needs {lacking}( |;)"):
+            gc.init_gap_case(**asked, number=some)
+    if case.tables:
+        with pytest.raises(gc.InputError, match=f"needs a table .* give it as {next(iter(case.tables))}="):
+            gc.init_gap_case(**{**asked, "table": ()}, number=numbers)
+    result = gc.init_gap_case(**asked, number=numbers)
+    for trial in trials:
+        for channel, error in result.errors[trial.name].items():
+            size = float(np.sqrt(np.nanmean(trial.column(channel) ** 2)))
+            assert size > 0.0 and error == pytest.approx(size / 6.0, rel=1e-6), (trial.name, channel)
+    result.write(tmp_path / "case")
+    begun_units = {each: one["unit"] for each, one in begun_settings(tmp_path / "case")["parameters"].items()}
+    assert begun_units.items() >= {each.name: each.unit for each in case.parameters}.items()
+    answers = {each: AnsweredNumber(value, None, None, begun_units[each]) for each, value in case.constants.items()}
+    answers |= {each.name: AnsweredNumber(each.start, each.lower, each.upper, each.unit) for each in case.parameters}
+    for _ in range(2):  # a second answer takes the place of the first
+        answer_case(tmp_path / "case", ["t3", "t4"], answers, {})
+    made, by_hand = (tomllib.loads((each / "case.toml").read_text("utf-8")) for each in (tmp_path / "case", hand))
+    assert made == by_hand
+    for one, other in zip(case.calibration, gc.read_gap_case(tmp_path / "case").calibration, strict=True):
+        assert other.signals.values == pytest.approx(one.signals.values, rel=1e-8, nan_ok=True)
+
+
+def test_units_of_channels_are_declared_for_all_models() -> None:
+    """Those of the built system, for each model whose numbers need no table."""
+    for base in SYSTEMS:
+        assert base.needs is not None and set(base.needs.units) == {*base.inputs, *base.outputs}
+        if not base.needs.tables:
+            numbers = base.needs.numbers(base.inputs, {})
+            system = base.build(tuple(gc.Parameter(each, unit, 1.0) for each, unit in numbers.items()), {}, {})
+            assert {name: system.unit(name) for name in base.needs.units} == base.needs.units

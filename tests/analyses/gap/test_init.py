@@ -190,6 +190,7 @@ REFUSED = {
     "short.py": ("def run(time, inputs):\n    return inputs[0]\n", "takes 2 arguments"),
     "shape.py": ("def run(time, inputs, numbers):\n    return inputs[0][:-1]\n", r"gave an array \(199,\)"),
     "fails.py": ("def run(time, inputs, numbers):\n    return inputs[7]\n", "fails on trial t1: .*IndexError"),
+    "exits.py": ("def run(time, inputs, numbers):\n    raise SystemExit(3)\n", "fails on trial t1: .*SystemExit: 3"),
     "notes.txt": ("hello\n", "neither a .py nor an .fmu file"),
     "zip.fmu": ("hello\n", "is no FMU"),
     "odd.py": ("PARAMETERS = [1]\ndef run(time, inputs, numbers):\n    return inputs[0]\n", "no tuple of gc.Parameter"),

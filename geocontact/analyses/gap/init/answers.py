@@ -14,6 +14,7 @@ from typing import Any
 from geocontact.analyses.gap.init.options import QUESTIONS
 from geocontact.analyses.gap.init.settings import ASKED, NOISE_ASKED, NUMBERS_ASKED, OPEN
 from geocontact.data.errors import InputError
+from geocontact.data.gap_case import LISTED_SYSTEMS
 from geocontact.io.cases.case_settings import LARGEST_SETTINGS, SETTINGS
 from geocontact.io.cases.gap_case import read_gap_case
 from geocontact.io.cases.gap_case_writer import toml_key
@@ -24,12 +25,15 @@ _SECTION = re.compile(r"\s*\[\[?\s*\"?(?P<name>[^\].\"]+)")
 _QUESTION = re.compile(r"#\s+\d+\. (?P<words>.+)")
 _ANSWERED = (NUMBERS_ASKED, NOISE_ASKED)
 _TRIALS = ("calibration", "evaluation")
-_WRITTEN = ("noise", "parameters")
 
 
 @dataclass(frozen=True)
 class AnsweredNumber:
-    """A number of the model: its start value and bounds, or no bounds where it is known exactly; SI units."""
+    """A number of the model: its start value and bounds, or no bounds where it is known exactly; SI units.
+
+    The latter becomes a constant of a model of the package, whose known lengths may be a little off, and a fixed
+    parameter of any other.
+    """
 
     start: float
     lower: float | None
@@ -80,14 +84,28 @@ def answer_case(
         raise InputError(folder, "", f"has no trial {unknown[0]}", f"it has {', '.join(trials)}")
     calibration = [name for name in trials if name not in evaluation]
     _check_numbers(file, said.get("parameters", {}), numbers)
-    answered = "\n".join(_lines(before.decode("utf-8-sig"), calibration, evaluation, numbers, noise)) + "\n"
-    _check_kept(file, said, answered, (noise, numbers))
+    sections = _sections(said, numbers, noise)
+    answered = "\n".join(_lines(before.decode("utf-8-sig"), calibration, evaluation, sections)) + "\n"
+    _check_kept(file, said, answered, sections)
     try:
         file.write_text(answered, encoding="utf-8", newline="\n")
         read_gap_case(folder, run_programs=simulator_allowed)
     except BaseException:
         file.write_bytes(before)
         raise
+
+
+def _sections(
+    said: Mapping[str, Any], numbers: Mapping[str, AnsweredNumber], noise: Mapping[str, float]
+) -> dict[str, dict[str, Any]]:
+    """What is written anew; constants are where an answer is one, or was."""
+    listed, before = said.get("system") in LISTED_SYSTEMS, said.get("constants", {})
+    exact = {name: each.start for name, each in numbers.items() if listed and each.lower is None}
+    anew: dict[str, dict[str, Any]] = {"noise": dict(noise)}
+    anew["parameters"] = {name: each for name, each in numbers.items() if name not in exact}
+    if exact or any(name in numbers for name in before):
+        anew["constants"] = {name: value for name, value in before.items() if name not in numbers} | exact
+    return anew
 
 
 def _check_numbers(file: Path, said: Mapping[str, Any], numbers: Mapping[str, AnsweredNumber]) -> None:
@@ -102,15 +120,15 @@ def _check_numbers(file: Path, said: Mapping[str, Any], numbers: Mapping[str, An
             )
 
 
-def _check_kept(file: Path, said: Mapping[str, Any], text: str, written: tuple[Mapping[str, Any], ...]) -> None:
+def _check_kept(file: Path, said: Mapping[str, Any], text: str, written: Mapping[str, Mapping[str, Any]]) -> None:
     """The new text says what the old one said, but for what is written anew."""
     try:
         found: dict[str, Any] = tomllib.loads(text)
     except ValueError:
         found = {}
-    anew = (*_TRIALS, *_WRITTEN)
+    anew = (*_TRIALS, *written)
     kept, before = ({key: value for key, value in all_.items() if key not in anew} for all_ in (found, said))
-    if kept != before or any(set(found.get(key, {})) != set(each) for key, each in zip(_WRITTEN, written, strict=True)):
+    if kept != before or any(set(found.get(key, {})) != set(each) for key, each in written.items()):
         what = "cannot be answered line by line"
         raise InputError(file, "", what, "write lists on one line, and noise and parameters as [noise], [parameters.k]")
 
@@ -125,8 +143,7 @@ def _lines(
     text: str,
     calibration: Sequence[str],
     evaluation: Sequence[str],
-    numbers: Mapping[str, AnsweredNumber],
-    noise: Mapping[str, float],
+    sections: Mapping[str, Mapping[str, Any]],
 ) -> Iterator[str]:
     """Head and sections without what is answered; trials, noise and numbers anew."""
     lines = text.splitlines()
@@ -141,12 +158,13 @@ def _lines(
     yield f"evaluation = {json.dumps(list(evaluation), ensure_ascii=False)}"
     for begin, end in pairwise(begins):
         section = _SECTION.match(lines[begin])
-        if section is not None and section["name"].strip() not in _WRITTEN:
+        if section is not None and section["name"].strip() not in sections:
             yield "\n" + "\n".join(lines[begin:end]).strip()
-    if noise:
-        yield "\n[noise]"
-        yield from (f"{toml_key(name)} = {value!r}" for name, value in noise.items())
-    for name, each in numbers.items():
+    for plain in ("noise", "constants"):
+        if sections.get(plain):
+            yield f"\n[{plain}]"
+            yield from (f"{toml_key(name)} = {value!r}" for name, value in sections[plain].items())
+    for name, each in sections["parameters"].items():
         yield f"\n[parameters.{toml_key(name)}]"
         yield f"start = {each.start!r}"
         if each.lower is None or each.upper is None:

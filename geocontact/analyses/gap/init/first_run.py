@@ -73,10 +73,12 @@ def first_run(found: FoundSimulator, case: GapCase, starts: Mapping[str, float],
     trials = (*case.calibration, *case.evaluation)
     declared = [replace(p, start=starts.get(p.name, p.start)) for p in found.declared]
     given = {p.name for p in declared}
-    declared += [Parameter(name, "", value) for name, value in starts.items() if name not in given]
+    declared += [
+        Parameter(name, found.units.get(name, ""), value) for name, value in starts.items() if name not in given
+    ]
     parameters, unknown = tuple(declared), []
     for _ in range(MOST_NUMBERS):
-        system = _built(found, parameters, file)
+        system = _built(found, parameters, case, file)
         name = _lacking(system, trials[0], file)
         if name is None:
             break
@@ -100,9 +102,9 @@ def decade(seconds: float) -> float:
     return float(10.0 ** max(np.ceil(np.log10(max(seconds, 1e-9))), -3.0))
 
 
-def _built(found: FoundSimulator, parameters: tuple[Parameter, ...], file: str) -> System:
+def _built(found: FoundSimulator, parameters: tuple[Parameter, ...], case: GapCase, file: str) -> System:
     try:
-        return found.base.build(parameters, {}, {})
+        return found.base.build(parameters, {}, case.tables)
     except Exception as error:  # the user's code may raise anything
         remedy = "give its numbers as PARAMETERS or by `number`"
         raise InputError(file, "", f"cannot be built: {said(error)}", remedy) from error
@@ -119,7 +121,7 @@ def _lacking(system: System, trial: Trial, file: str) -> str | None:
         if cause is not None and cause.args and isinstance(cause.args[0], str):
             return cause.args[0]
         raise _failure(error, trial, file) from error
-    except Exception as error:  # the user's code may raise anything
+    except (Exception, SystemExit) as error:  # the user's code may raise anything
         raise _failure(error, trial, file) from error
     return None
 
@@ -127,7 +129,7 @@ def _lacking(system: System, trial: Trial, file: str) -> str | None:
 def _called(system: System, trial: Trial, file: str) -> Float[np.ndarray, "t c"]:
     try:
         outputs = system.demand(trial, system.start)
-    except Exception as error:  # the user's code may raise anything
+    except (Exception, SystemExit) as error:  # the user's code may raise anything
         raise _failure(error, trial, file) from error
     wanted = (len(trial), len(system.outputs))
     if outputs.shape != wanted:
@@ -135,7 +137,7 @@ def _called(system: System, trial: Trial, file: str) -> Float[np.ndarray, "t c"]
     return outputs
 
 
-def _failure(error: Exception, trial: Trial, file: str) -> InputError:
+def _failure(error: BaseException, trial: Trial, file: str) -> InputError:
     shapes = f"it got {len(trial)} times"
     remedy = f"{shapes}; correct it, or give its numbers as PARAMETERS or by `number`"
     return InputError(file, "", f"fails on trial {trial.name}: {said(error)}", remedy)

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 from typing import Annotated, ClassVar
 
-from geocontact.analyses.frame.marks import Missing, Spelled, Typed
+from geocontact.analyses.frame.marks import Missing, Spelled, Texts, Typed
 from geocontact.analyses.frame.options import Options
 
 NamedStarts = Annotated[
@@ -31,8 +31,8 @@ class InitOptions(Options):
     ----------
     simulator
         A Python file with `run(time, inputs, numbers)` or a `gc.simulator_base`, "mine.py:NAME" where it has several;
-        an .fmu file; the command of a program that simulates one trial, "prog {params} {trial} {out}"; or elbow or
-        knee, models of this package. It is run.
+        an .fmu file; the command of a program that simulates one trial, "prog {params} {trial} {out}"; or elbow, foot,
+        shoulder, knee or sit_to_stand, models of this package. It is run.
         PARAMETERS, a tuple of `gc.Parameter` in the Python file, are written into case.toml.
     data
         Folder with a .csv file per trial: time, inputs and outputs, units in the header.
@@ -41,16 +41,19 @@ class InitOptions(Options):
     inputs
         Columns that drive it, in the order of the rows that `run` gets; all others by default.
     number
-        Start value of a number that the simulator needs, SI unit; may be repeated: k=100.
+        Start value of a number that the simulator needs, SI unit; may be repeated: k=100. After the name of a trial
+        it is that trial's own: t01.level=0.5.
     acts_on
         Input that the law of a `run(time, inputs, numbers, law)` acts on; the only input by default.
+    table
+        Table that a model needs: spheres=spheres.csv of the foot, support=support.csv of the shoulder; may be repeated.
     """
 
     over_time: ClassVar[bool] = True
     writes: ClassVar[str] = """
     Writes case.toml with its open questions as comments, trials/<id>.csv, first_run.csv (measured and simulated), an
     adapter <name>_adapter.py where the simulator needs one, report.html and run.json into OUT. What cannot be known is
-    "?" there, and `geocontact gap diagnose OUT` refuses the case until it is answered.
+    "?" there, and `geocontact gap diagnose OUT` refuses the case until it is answered. <table>.csv is a copy in SI.
     """
     folder_help: ClassVar[str] = "Folder for the case."
     last_line: ClassVar[str] = (
@@ -64,3 +67,4 @@ class InitOptions(Options):
     inputs: str | None = None
     number: NamedStarts = field(default_factory=dict)
     acts_on: str | None = None
+    table: Texts = ()

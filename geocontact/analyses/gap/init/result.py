@@ -18,7 +18,7 @@ run of strut.py was called on 4 trials: angle [rad] → torque [N m]
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,14 +36,16 @@ from geocontact.analyses.gap.init.options import InitOptions
 from geocontact.analyses.gap.init.settings import NOISE_ASKED, NUMBERS_ASKED, settings_text
 from geocontact.analyses.gap.init.show import init_page
 from geocontact.analyses.gap.init.simulator import FoundSimulator, found_simulator
+from geocontact.analyses.gap.init.starts import shared_numbers, trial_numbers
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import GapCase
+from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_settings import SETTINGS
-from geocontact.io.cases.gap_case_writer import trial_table
+from geocontact.io.cases.gap_case_writer import trial_table, write_tables
 from geocontact.io.cases.trial_table import alike, read_trial
 from geocontact.io.text.results import CASES
+from geocontact.io.text.side_table import read_side_table
 
 if TYPE_CHECKING:
     from geocontact.view.page.content import Page
@@ -124,10 +126,11 @@ class InitResult(Result):
         return {REPORT: init_page(self.title, self.case, self.run, self.questions, self.errors)}
 
     def write_files(self, folder: Path) -> None:
-        """Also case.toml and the adapter."""
+        """Also case.toml, tables and the adapter."""
         super().write_files(folder)
         text = settings_text(self.case, self.found, self.run, self.questions)
         (folder / SETTINGS).write_text(text, encoding="utf-8", newline="\n")
+        write_tables(self.case, folder)
         name, module = self.found.adapter
         if name:
             (folder / name).write_text(module, encoding="utf-8", newline="\n")
@@ -136,25 +139,38 @@ class InitResult(Result):
 def read(o: InitOptions) -> GapCase:
     """The trials of a folder as a case without a base model."""
     files = sorted(each for each in o.data.glob("*.csv") if each.is_file())
+    own = trial_numbers(o.number, [each.stem for each in files])
     if len(files) < 3:
         what = f"holds {len(files)} .csv files"
         raise InputError(o.data, "", what, "give a file per trial: two to fit to and two held out at least")
     tables = alike({each.stem: read_trial(each) for each in files})
     for each in files:
         add_input("trial", each)
-    trials = tuple(Trial(name, table.signals, {}, {}) for name, table in tables.items())
+    trials = tuple(Trial(name, table.signals, own.get(name, {}), {}) for name, table in tables.items())
     held = trials[2::3] if len(trials) >= FEW + 2 else trials[-min(2, len(trials) // 2) :]
     fitted = tuple(one for one in trials if one not in held)
-    return GapCase(o.data.resolve().name, "", fitted, tuple(held), (), {}, {}, {})
+    return GapCase(o.data.resolve().name, "", fitted, tuple(held), (), {}, {}, _tables(o.table))
+
+
+def _tables(given: Sequence[str]) -> dict[str, pd.DataFrame]:
+    """Tables of "name=file", SI units."""
+    found = {}
+    for each in given:
+        name, equals, path = each.partition("=")
+        if not (name.isidentifier() and equals and path):
+            raise InputError("", "`table`", f"is {each!r}", "write its name and its file: spheres=spheres.csv")
+        found[name] = read_side_table(Path(path))
+        add_input("table", Path(path))
+    return found
 
 
 def run(case: GapCase, o: InitOptions) -> InitResult:
     """The simulator called on every trial, and what remains to be asked."""
     signals = case.calibration[0].signals
     units = dict(zip(signals.channels, signals.units, strict=True))
-    found = found_simulator(o, units)
+    found = found_simulator(o, units, case)
     _require_channels(found, units, o)
-    first = first_run(found, case, o.number, o.simulator)
+    first = first_run(found, case, shared_numbers(o.number, case), o.simulator)
     found = _with_memory(found, first, units)
     questions = (*found.questions, *_asked(case, found, first))
     sides = [", ".join(f"{n} [{units[n]}]" for n in names) for names in (first.system.inputs, first.system.outputs)]
@@ -179,7 +195,7 @@ def _require_channels(found: FoundSimulator, units: Mapping[str, str], o: InitOp
 
 def _with_memory(found: FoundSimulator, first: FirstRun, units: Mapping[str, str]) -> FoundSimulator:
     """The adapter as the first call showed it must be; a reservation where the model itself says otherwise."""
-    if not first.spreads or first.system.dynamic:
+    if not first.spreads or first.system.dynamic or found.system in LISTED_SYSTEMS:
         return found
     name, _ = found.adapter
     if not name:
@@ -201,8 +217,8 @@ def _asked(case: GapCase, found: FoundSimulator, first: FirstRun) -> list[str]:
     asked.append(
         f"{NOISE_ASKED}{', '.join(first.system.outputs)}: standard deviation of each sensor; else it is estimated"
     )
-    if first.silent:
-        asked.append(f"{', '.join(first.silent)} changed no output where it was moved: is it the right column?")
+    if silent := [name for name in first.silent if name not in first.system.spare]:
+        asked.append(f"{', '.join(silent)} changed no output where it was moved: is it the right column?")
     trials = (*case.calibration, *case.evaluation)
     if len(trials) < FEW:
         asked.append(f"{len(trials)} trials; can you record {FEW} or more? Two to fit to and two held out")

@@ -10,7 +10,7 @@ from geocontact.analyses.gap.init.first_run import FirstRun
 from geocontact.analyses.gap.init.simulator import FoundSimulator
 from geocontact.data.gap_case import GapCase
 from geocontact.data.parameter import Parameter
-from geocontact.io.cases.gap_case_writer import toml_key
+from geocontact.io.cases.gap_case_writer import file_of, toml_key
 
 OPEN = '"?"'
 """Value of what only the user knows; not a number, so that a diagnosis refuses it."""
@@ -34,10 +34,16 @@ def _lines(case: GapCase, found: FoundSimulator, run: FirstRun, questions: Seque
         yield f"{key} = {_word(value)}"
     yield f"calibration = {_word([one.name for one in case.calibration])}"
     yield f"evaluation = {_word([one.name for one in case.evaluation])}  # held out: nothing is fitted to them"
+    for key in case.tables:
+        yield f"{toml_key(key)} = {_word(file_of(key))}"
     yield ""
     yield "[noise]  # standard deviation of a sensor"
     for name in run.system.outputs:
         yield f"# {toml_key(name)} = ?  # {_unit(case, name)}"
+    for one in (*case.calibration, *case.evaluation):
+        if one.covariates:
+            yield f"\n[trial.{toml_key(one.name)}]"
+            yield from (f"{toml_key(name)} = {_number(value)}" for name, value in one.covariates.items())
     declared = {p.name for p in found.declared}
     for p in run.system.parameters:
         yield ""
@@ -55,7 +61,7 @@ def _parameter(p: Parameter, declared: bool, unknown: bool) -> Iterator[str]:
     else:
         yield f"lower = {OPEN}  # or fixed = true in place of lower and upper"
         yield f"upper = {OPEN}"
-    yield f"unit = {_word(p.unit)}" + ("" if declared else '  # SI: "m", "rad", "N m/rad" …')
+    yield f"unit = {_word(p.unit)}" + ("" if declared or p.unit else '  # SI: "m", "rad", "N m/rad" …')
 
 
 def _unit(case: GapCase, name: str) -> str:

@@ -6,7 +6,7 @@ import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -14,21 +14,19 @@ from typing import Any
 from geocontact.analyses.gap.init.adapter import fmu_adapter, function_adapter
 from geocontact.analyses.gap.init.fmu import FmuVariable, read_fmu
 from geocontact.analyses.gap.init.options import InitOptions
+from geocontact.analyses.gap.init.starts import shipped_model
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
-from geocontact.data.gap_case import COMMAND
+from geocontact.data.gap_case import COMMAND, GapCase
 from geocontact.data.parameter import Parameter
 from geocontact.io.cases.gap_case import PLACES, program
 from geocontact.systems.base import Base
-from geocontact.systems.elbow import ELBOW
-from geocontact.systems.knee import KNEE
+from geocontact.systems.catalogue import SYSTEMS
 from geocontact.systems.simulator import simulated_system, simulator_base
 from geocontact.systems.validate import said
 
 LOADS = ("N", "N m", "Pa")
 """Units of what a simulator of contact predicts, where nobody says which columns it does."""
-SHIPPED = (ELBOW, KNEE)
-"""Base models of the package that need neither a table nor a list of sites; their numbers are given by `number`."""
 Units = Mapping[str, str]
 """SI unit of each column of the trials, by name, in their order."""
 
@@ -53,6 +51,8 @@ class FoundSimulator:
         Further keys of case.toml with their values in TOML.
     adapter
         Name and text of the module that has to lie beside it; empty where it needs none.
+    units
+        SI units of its numbers, of those that are known.
     """
 
     words: str
@@ -62,18 +62,19 @@ class FoundSimulator:
     questions: tuple[str, ...] = ()
     settings: tuple[tuple[str, str | tuple[str, ...]], ...] = ()
     adapter: tuple[str, str] = ("", "")
+    units: Mapping[str, str] = field(default_factory=dict)
 
 
-def found_simulator(o: InitOptions, units: Units) -> FoundSimulator:
+def found_simulator(o: InitOptions, units: Units, case: GapCase) -> FoundSimulator:
     """The simulator that is named; InputError where there is none, or where it is not clear what it takes and gives."""
     if any(place in o.simulator for place in PLACES):
         return _program(o, units)
-    if shipped := next((base for base in SHIPPED if base.name == o.simulator), None):
-        return _shipped(shipped, o)
+    if shipped := next((base for base in SYSTEMS if base.name == o.simulator), None):
+        return _shipped(shipped, o, units, case)
     path, _, name = o.simulator.partition(".py:")
     file = Path(f"{path}.py" if name else o.simulator)
     if not file.is_file():
-        models = " or ".join(base.name for base in SHIPPED)
+        models = ", ".join(base.name for base in SYSTEMS)
         remedy = f'give a .py or .fmu file, {models}, or a command such as "prog {{params}} {{trial}} {{out}}"'
         raise InputError("", "`simulator`", f"there is no file {str(file)!r}", remedy)
     if file.suffix.lower() == ".fmu":
@@ -84,14 +85,25 @@ def found_simulator(o: InitOptions, units: Units) -> FoundSimulator:
     return _python(file, name, o, units)
 
 
-def _shipped(base: Base, o: InitOptions) -> FoundSimulator:
-    """A base model of the package, whose channels have names of its own."""
+def _shipped(base: Base, o: InitOptions, units: Units, case: GapCase) -> FoundSimulator:
+    """A base model of the package, whose channels, numbers and tables have names of its own."""
     for option, given in (("outputs", o.outputs), ("inputs", o.inputs), ("acts_on", o.acts_on)):
         if given is not None:
             channels = f"{', '.join(base.inputs)} → {', '.join(base.outputs)}"
             what = f"has no effect: the channels of the model {base.name} are {channels}"
             raise InputError("", f"`{option}`", what, "leave it out")
-    return FoundSimulator(f"the model {base.name}", base.name, base)
+    system, needed = shipped_model(base, o.number, units, case)
+    lacking = [name for name in (*system.inputs, *system.outputs) if name not in units]
+    for name, unit in units.items():
+        if not lacking and name in system.units and unit != system.unit(name):
+            what = f"needs {name} in {system.unit(name)}, the trials give {unit}"
+            raise InputError(o.simulator, "", what, "correct column or unit")
+
+    def build(parameters: tuple[Parameter, ...], _constants: Mapping[str, float], _tables: object) -> System:
+        return replace(system, parameters=parameters)  # their bounds are open as yet; numbers are known as constants
+
+    own = Base(base.name, system.inputs, system.outputs, build)
+    return FoundSimulator(f"the model {base.name}", base.name, own, units=needed)
 
 
 def _program(o: InitOptions, units: Units) -> FoundSimulator:
