@@ -15,7 +15,7 @@ from nicegui import Client
 from nicegui.elements.mixins.text_element import TextElement
 from nicegui.page import page
 
-from geocontact.app import surface_view
+from geocontact.app import picture, surface_view
 from geocontact.app.faces import Chooser, Found
 from geocontact.app.fields import Form, fields_of
 from geocontact.app.landmark_uses import _USES
@@ -146,7 +146,7 @@ def test_a_picture_in_another_unit_is_taken_away(tmp_path: Path, monkeypatch: py
 
     monkeypatch.setattr("geocontact.app.elements.below_home", str)  # no request
     monkeypatch.setattr(surface_view, "write_page", write)
-    monkeypatch.setattr(surface_view._chooser, "ask", answer)
+    monkeypatch.setattr(picture.chooser, "ask", answer)
     monkeypatch.setattr(surface_view.aside, "io_bound", at_once)
     client = Client(page(""), request=None)
     monkeypatch.setattr(client, "run_javascript", lambda script: script)
