@@ -45,7 +45,7 @@ def answer(asked: dict[str, Any]) -> dict[str, Any]:
     if stored:
         form.values[MOTION] = str(AS_STORED)
     try:
-        options = calls.read(calls.expanded(form, "").words("-"), form.command)
+        options = calls.read(form.words("-"), form.command)
         thresholds = tuple(options.threshold)  # type: ignore[attr-defined]
         with command_of(entry_of(form.command)).respelling():
             wide = replace(options, threshold=(max(REACH, *thresholds),))  # type: ignore[call-arg]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import struct
 from base64 import b64decode
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,8 +51,10 @@ def of_faces(file: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def chooser() -> Chooser:
-    return Chooser()
+def chooser() -> Iterator[Chooser]:
+    one = Chooser()
+    yield one
+    one.close()
 
 
 def asked(**more: object) -> dict[str, object]:

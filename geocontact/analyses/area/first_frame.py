@@ -160,7 +160,9 @@ class FirstFrame:
             SceneBody(body.name, body.vertices, body.faces, self.poses[name]) for name, body in self.surfaces.items()
         ]
         scene = Scene(bodies, (UNUSED,), (0.0, UNUSED), directions=camera_directions(normal))
-        return Page("Within the threshold", "in blue, on each body", np.zeros(1), "time [s]", sections=(scene,), plays=False)
+        return Page(
+            "Within the threshold", "in blue, on each body", np.zeros(1), "time [s]", sections=(scene,), plays=False
+        )
 
 
 def frame_words(motion: Motion, name: str = "") -> str:
