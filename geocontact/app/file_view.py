@@ -14,7 +14,7 @@ from geocontact.app.elements import element, text
 from geocontact.app.fields import Field
 from geocontact.app.files import Known, contents, known_file
 from geocontact.app.form_view import FieldRow, FormView
-from geocontact.app.picture import Picture, fill
+from geocontact.app.picture import FormPicture, fill
 from geocontact.app.surface_view import SurfaceView
 from geocontact.app.threshold_view import ThresholdView, threshold_of
 
@@ -38,7 +38,7 @@ class FileView:
 
     def __init__(self, view: FormView, folder: Path, pages: Path, serve: Callable[[Path], str], upload: str) -> None:
         self.form, self._folder, self._pages, self._serve, self._upload = view.form, folder, pages, serve, upload
-        self._pictures: dict[str, list[Picture]] = {}
+        self._pictures: dict[str, list[FormPicture]] = {}
         self._rows = {row.one.name: row for row in view.rows if row.one.kind in ("file", "files")}
         self._places: dict[str, Element] = {}
         self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())

@@ -22,7 +22,7 @@ def fill(name: str, value: str, add: bool = False) -> None:
     ui.run_javascript(f"{script} e.dispatchEvent(new Event('change', {{ bubbles: true }}));")
 
 
-class Picture(ABC):
+class FormPicture(ABC):
     """The button, what is said beside it, and the place of the picture.
 
     Parameters

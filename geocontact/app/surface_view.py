@@ -15,14 +15,14 @@ from geocontact.app.fields import Field, Form
 from geocontact.app.files import page_name, write_page
 from geocontact.app.form_view import PAUSE, VALUE
 from geocontact.app.landmark_uses import ELSEWHERE, LINE, NAMED_REGION, POINT, REGION, TABLE, Use, region_of, uses_of
-from geocontact.app.picture import Picture, fill
+from geocontact.app.picture import FormPicture, fill
 from geocontact.app.region_box import NAMES, STEPS, Box
 
 RADIUS = "10mm"
 """Radius of a region about a landmark before another one is typed."""
 
 
-class SurfaceView(Picture):
+class SurfaceView(FormPicture):
     """The picture of one surface, below its field.
 
     Parameters

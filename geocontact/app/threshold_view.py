@@ -12,7 +12,7 @@ from geocontact.app.elements import element, text
 from geocontact.app.faces import Found
 from geocontact.app.fields import Field, Form
 from geocontact.app.form_view import PAUSE, VALUE
-from geocontact.app.picture import Picture, fill
+from geocontact.app.picture import FormPicture, fill
 from geocontact.app.within import REACH
 from geocontact.data.plausible import THRESHOLD
 
@@ -29,7 +29,7 @@ def threshold_of(form: Form) -> Field | None:
     return next((one for one in form.fields if one.one.range is THRESHOLD and one.units), None)
 
 
-class ThresholdView(Picture):
+class ThresholdView(FormPicture):
     """The picture of the threshold, below its field.
 
     Parameters
