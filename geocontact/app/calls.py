@@ -55,7 +55,12 @@ def checked(words: Sequence[str], command: str, out: Path | str) -> tuple[str, s
     try:
         return python_lines(words, command, out), ""
     except (CycloptsError, InputError, OSError) as error:
-        return "", " ".join(refusal(error).split()).partition(HELP)[0]  # the help stands in the form
+        return "", complaint(error)
+
+
+def complaint(error: CycloptsError | InputError | OSError) -> str:
+    """What is wrong, in one line, without where the help stands: that is in the form."""
+    return " ".join(refusal(error).split()).partition(HELP)[0]
 
 
 def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:

@@ -1,6 +1,6 @@
-"""Faces that a filled form counts, chosen in a process of its own by what `region` uses, for the picture.
+"""Faces that a filled form counts, or what is within its threshold, found in a process of its own for the picture.
 
-The process stays, with the last surface, so that the next answer takes no longer than the choice itself.
+The process stays, with the last surfaces, so that the next answer takes no longer than the choice itself.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 import threading
 import warnings
 from base64 import b64encode
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -31,17 +31,22 @@ class Found:
     Parameters
     ----------
     said
-        Number of faces and their area, or why there is none.
+        Number of faces and their area, or areas within each threshold; why there is none.
     marked
-        Bits of the faces that count in base64, their number, the plane to the medial side and mm of the unit; None
-        without an answer.
+        Bits of the faces that count in base64, their number, the plane to the medial side and mm of the unit; or
+        levels of the vertices of each body in base64 (`within`). None without an answer.
     box
         Least and largest values of x y z nx ny nz.
+    about, page, thresholds
+        Frame and bodies, path of their page, and the thresholds that are filled in [m].
     """
 
     said: str
     marked: dict[str, Any] | None = None
     box: list[list[float]] | None = None
+    about: str = ""
+    page: str = ""
+    thresholds: Sequence[float] = ()
 
 
 class Chooser:
@@ -59,7 +64,7 @@ class Chooser:
         self._one_at_a_time = threading.Lock()
 
     def ask(self, asked: dict[str, Any]) -> Found:
-        """Faces that count; `asked` has the fields of `FaceQuestion`."""
+        """The answer; `asked` has the fields of `FaceQuestion`, or what `within` reads."""
         with self._one_at_a_time:
             process = self._started()
             timer = threading.Timer(self._patience, process.kill)
@@ -138,8 +143,18 @@ def answers() -> None:
         return read(replace(question, region="", split="", side="", medial="", option="", elsewhere=""), known)
 
     for line in sys.stdin:
-        sys.stdout.write(json.dumps(asdict(answer(json.loads(line), body_of))) + "\n")
+        asked = json.loads(line)
+        sys.stdout.write(json.dumps(asdict(_within(asked) if "command" in asked else answer(asked, body_of))) + "\n")
         sys.stdout.flush()
+
+
+def _within(asked: dict[str, Any]) -> Found:
+    """What is within a threshold."""
+    from geocontact.app import within  # the command line, which faces do not need
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return Found(**within.answer(asked))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What the files of a form hold, beside their fields: facts, warnings, units that are offered, surfaces in 3-D."""
+"""What the files of a form hold, beside their fields: facts, warnings, units that are offered, pictures in 3-D."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from geocontact.app.elements import element, text
 from geocontact.app.fields import Field
 from geocontact.app.files import Known, contents, known_file
 from geocontact.app.form_view import FieldRow, FormView
-from geocontact.app.surface_view import SurfaceView, fill
+from geocontact.app.picture import FormPicture, fill
+from geocontact.app.surface_view import SurfaceView
+from geocontact.app.threshold_view import ThresholdView, threshold_of
 
 
 class FileView:
@@ -36,36 +38,49 @@ class FileView:
 
     def __init__(self, view: FormView, folder: Path, pages: Path, serve: Callable[[Path], str], upload: str) -> None:
         self.form, self._folder, self._pages, self._serve, self._upload = view.form, folder, pages, serve, upload
-        self._pictures: dict[str, list[SurfaceView]] = {}
+        self._pictures: dict[str, list[FormPicture]] = {}
         self._rows = {row.one.name: row for row in view.rows if row.one.kind in ("file", "files")}
         self._places: dict[str, Element] = {}
         self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())
         self._known: dict[Known, Content] = {}
         self._at_work = False
         self._anew = False
+        threshold = threshold_of(self.form)
+        for row in view.rows:
+            if row.one is threshold:
+                with row.row, element("div", "content"), element("div", "links"):
+                    self._pictures[row.one.name] = [ThresholdView(self.form, row.one, pages, serve)]
 
     def look_at_all(self) -> None:
         """From now on look at files that nobody changed by hand as well."""
         self._anew = True
 
     async def look(self) -> None:
-        """Read files that are new, and show what they hold; nothing before a field for files was changed by hand."""
-        if self._at_work or not (self._anew or any(row.touched for row in self._rows.values())):
+        """Read files that are new, show what they hold, and colour pictures.
+
+        Nothing is read before a field for files was changed by hand.
+        """
+        if self._at_work:
             return
         self._at_work = True
         try:
-            while (now := {name: self._files(row.one) for name, row in self._rows.items()}) != self._shown:
-                await self._read(now)
-                if any(row.row.is_deleted for row in self._rows.values()):  # the browser has left the page
-                    return
-                self._shown = now
-                for name, files in now.items():
-                    if files or name in self._places:
-                        self._show(self._rows[name], files)
+            if self._anew or any(row.touched for row in self._rows.values()):
+                await self._follow()
             for picture in [each for some in self._pictures.values() for each in some]:
                 await picture.colour()
         finally:
             self._at_work = False
+
+    async def _follow(self) -> None:
+        """Read and show until no file is new."""
+        while (now := {name: self._files(row.one) for name, row in self._rows.items()}) != self._shown:
+            await self._read(now)
+            if any(row.row.is_deleted for row in self._rows.values()):  # the browser has left the page
+                return
+            self._shown = now
+            for name, files in now.items():
+                if files or name in self._places:
+                    self._show(self._rows[name], files)
 
     async def _read(self, files: Mapping[str, tuple[Known, ...]]) -> None:
         """Read those that are not known."""

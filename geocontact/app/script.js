@@ -1,3 +1,6 @@
+const move = (ids, value) => {
+  for (const e of ids.map(id => document.getElementById(id))) if (e && e !== document.activeElement) e.value = value;
+};
 const send = async (input, files) => {
   const target = document.getElementById(input.dataset.target), names = [], failed = [];
   const [first, ...others] = files, many = target.tagName === 'TEXTAREA';

@@ -2,36 +2,27 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from nicegui import run as aside
-from nicegui import ui
 
 from geocontact.app.elements import choice, element, text
-from geocontact.app.faces import Chooser, Found
+from geocontact.app.faces import Found
 from geocontact.app.fields import Field, Form
 from geocontact.app.files import page_name, write_page
 from geocontact.app.form_view import PAUSE, VALUE
 from geocontact.app.landmark_uses import ELSEWHERE, LINE, NAMED_REGION, POINT, REGION, TABLE, Use, region_of, uses_of
+from geocontact.app.picture import FormPicture, fill
 from geocontact.app.region_box import NAMES, STEPS, Box
 
-_chooser = Chooser()
 RADIUS = "10mm"
 """Radius of a region about a landmark before another one is typed."""
 
 
-def fill(name: str, value: str, add: bool = False) -> None:
-    """Type a value into a field of the form, on a line of its own below what stands there where `add`."""
-    typed = f"[e.value.trim(), {json.dumps(value)}].filter(Boolean).join('\\n')" if add else json.dumps(value)
-    script = f"const e = document.querySelector('[name={json.dumps(name)}]'); e.value = {typed};"
-    ui.run_javascript(f"{script} e.dispatchEvent(new Event('change', {{ bubbles: true }}));")
-
-
-class SurfaceView:
+class SurfaceView(FormPicture):
     """The picture of one surface, below its field.
 
     Parameters
@@ -58,17 +49,12 @@ class SurfaceView:
         serve: Callable[[Path], str],
         upload: str,
     ) -> None:
+        super().__init__(f"show {path.name} in 3-D")
         self._form, self._one, self._units, self._path = form, one, units, path
         self._pages, self._serve, self._upload = pages, serve, upload
         self._region = region_of(form.command, one.name)
-        self._frame: Any = None
         self._in_unit = ""
-        self._asked: dict[str, Any] | None = None
         self._box: Box | None = None
-        button = text("button", "show in 3-D", type="button", aria_label=f"show {path.name} in 3-D")
-        self._said = text("span", "", "why", role="status")
-        self._picture = element("div", "picture")
-        button.on("click", self.show)
 
     async def show(self) -> None:
         """Write the page of the surface and show it."""
@@ -80,51 +66,28 @@ class SurfaceView:
         self._said.text = "…"
         self._pages.mkdir(parents=True, exist_ok=True)
         self._said.text = str(await aside.io_bound(write_page, self._path, unit, out))
-        self._clear()
+        self.clear()
         if self._said.text:
             return
         self._in_unit = unit
-        with self._picture:
-            title = f"{self._path.name} in 3-D"
-            self._frame = element(
-                "iframe",
-                src=self._serve(out),
-                title=title,
-                sandbox="allow-scripts allow-downloads",
-                data_to=self._upload,
-            )
-            self._frame.on("load", js_handler="(e) => attach(e.target)")
+        with self._place:
+            self.open_page(self._serve(out), f"{self._path.name} in 3-D", data_to=self._upload)
             self._frame.on("landmarks", self._offer, js_handler="(e) => emit(e.detail)")
             self._counted = text("p", "", "help", role="status")
             self._below = element("div")
             self._uses = element("div", "uses", aria_live="polite")
         await self.colour()
 
-    def _clear(self) -> None:
-        self._picture.clear()
-        self._frame, self._asked, self._box = None, None, None
+    def clear(self) -> None:
+        """Take the picture away, with its box."""
+        super().clear()
+        self._box = None
 
-    async def colour(self) -> None:
-        """Colour the faces that count, where what is filled in says something else than before.
-
-        A picture in another unit than the one that is filled in is taken away: its lengths are those of the old one.
-        """
-        while self._is_current() and self._region and (asked := self._question()) != self._asked:
-            self._asked = asked
-            found = await aside.io_bound(_chooser.ask, asked)
-            if self._picture.is_deleted or found is None or not self._is_current():
-                return
-            self._counted.text = found.said
-            script = f"mark('{self._frame.html_id}', {json.dumps(found.marked)})"
-            self._frame.client.run_javascript(script)
-            self._sliders(found)
-
-    def _is_current(self) -> bool:
-        """Whether a picture is shown, in the unit that is filled in."""
-        if self._frame is not None and self._unit() != self._in_unit:
-            self._clear()
-            self._said.text = f"the picture was in {self._in_unit}: show it again"
-        return self._frame is not None
+    def take(self, found: Found) -> None:
+        """Colour the faces that count, and say how many."""
+        self._counted.text = found.said
+        self.mark(found.marked)
+        self._sliders(found)
 
     def _sliders(self, found: Found) -> None:
         """Sliders of a box about the surface, once its size is known."""
@@ -200,8 +163,16 @@ class SurfaceView:
     def _unit(self) -> str:
         return next(filter(None, (str(self._form.value(one)) for one in self._units)), "")
 
-    def _question(self) -> dict[str, Any]:
-        """What the form says of the faces, as `FaceQuestion` has it."""
+    def question(self) -> dict[str, Any] | None:
+        """What the form says of the faces, as `FaceQuestion` has it; None where none are coloured.
+
+        A picture in another unit than the one that is filled in is taken away: its lengths are those of the old one.
+        """
+        if self._frame is not None and self._unit() != self._in_unit:
+            self.clear()
+            self._said.text = f"the picture was in {self._in_unit}: show it again"
+        if self._frame is None or not self._region:
+            return None
         own = self._one.name
         closed = self._value("assume_closed")
         asked: dict[str, Any] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import struct
 from base64 import b64decode
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from nicegui import Client
 from nicegui.elements.mixins.text_element import TextElement
 from nicegui.page import page
 
-from geocontact.app import surface_view
+from geocontact.app import picture, surface_view
 from geocontact.app.faces import Chooser, Found
 from geocontact.app.fields import Form, fields_of
 from geocontact.app.landmark_uses import _USES
@@ -51,8 +51,10 @@ def of_faces(file: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def chooser() -> Chooser:
-    return Chooser()
+def chooser() -> Iterator[Chooser]:
+    one = Chooser()
+    yield one
+    one.close()
 
 
 def asked(**more: object) -> dict[str, object]:
@@ -146,7 +148,7 @@ def test_a_picture_in_another_unit_is_taken_away(tmp_path: Path, monkeypatch: py
 
     monkeypatch.setattr("geocontact.app.elements.below_home", str)  # no request
     monkeypatch.setattr(surface_view, "write_page", write)
-    monkeypatch.setattr(surface_view._chooser, "ask", answer)
+    monkeypatch.setattr(picture.chooser, "ask", answer)
     monkeypatch.setattr(surface_view.aside, "io_bound", at_once)
     client = Client(page(""), request=None)
     monkeypatch.setattr(client, "run_javascript", lambda script: script)

@@ -405,13 +405,18 @@ def _outer(o: AreaOptions, bodies: Bodies, found: Mapping[Literal["moving", "fix
     return replace(bodies, inner=inner)
 
 
+def refinement_of(thresholds: tuple[float, ...], bounds: float | None) -> Refinement:
+    """When the refined rule stops, for thresholds [m] and the bounds asked for."""
+    if bounds is not None:
+        return Refinement(bounds=bounds, pieces=PATIENT)
+    return Refinement(pieces=BRIEF if min(thresholds) >= FINE else FEW)
+
+
 def _settings(o: AreaOptions, split: tuple[Plane, MedialSide] | None, moving: Surface, fixed: Surface) -> Settings:
-    pieces = BRIEF if min(o.threshold) >= FINE else FEW
-    refinement = Refinement(pieces=pieces) if o.bounds is None else Refinement(bounds=o.bounds, pieces=PATIENT)
     return Settings(
         thresholds=o.threshold,
         rule=o.rule,
-        refinement=refinement,
+        refinement=refinement_of(o.threshold, o.bounds),
         fixed_faces=chosen_faces("`region`", o.region, fixed, o.unit),
         moving_faces=chosen_faces("`region_moving`", o.region_moving, moving, unit_of_moving(o)),
         split=None if split is None else split[0],

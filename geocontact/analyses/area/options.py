@@ -251,6 +251,7 @@ class AreaOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    first_frame: ClassVar[str] = "geocontact.analyses.area.first_frame"
     writes: ClassVar[str] = """
     Writes area.csv, report.html, area.png, area.svg and run.json into OUT, and pressure.csv with `pressure`. A point
     counts as in contact when its signed distance to the other body is not above the threshold; against an open body

@@ -176,12 +176,15 @@ class Options:
         What it says of the folder for the results.
     last_line
         The command prints it at the end, with the folder in place of {out}; nothing where it is empty.
+    first_frame
+        Module whose `first_frame` gives the bodies at the first frame for a picture of `threshold`; "" without one.
     """
 
     over_time: ClassVar[bool] = False
     writes: ClassVar[str] = ""
     folder_help: ClassVar[str] = "Folder for the results."
     last_line: ClassVar[str] = ""
+    first_frame: ClassVar[str] = ""
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()

@@ -205,25 +205,47 @@ class ContactPair:
 
     def at(self, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]) -> FrameContact:
         """Contact with MOVING at x_fixed = rotation x_moving + translation [m]."""
-        if not (np.isfinite(rotation).all() and np.isfinite(translation).all()):
-            raise ValueError("the pose is not finite")
-        back, origin = np.ascontiguousarray(rotation.T), -rotation.T @ translation
-        on_fixed = self._fixed.distances(self.moving, back, origin)
-        on_moving = self._moving.distances(self.fixed, np.ascontiguousarray(rotation), translation)
+        on_fixed, on_moving = self.distances(rotation, translation)
         lowest, penetration = self._overlap(on_fixed, on_moving)
-        moving = [
-            _in_frame(self._area(self._moving, self.fixed, on_moving, t, rotation, translation), rotation, translation)
-            for t in self.settings.thresholds
-        ]
+        within = [self.within(t, (on_fixed, on_moving), rotation, translation) for t in self.settings.thresholds]
         return FrameContact(
-            fixed=[self._area(self._fixed, self.moving, on_fixed, t, back, origin) for t in self.settings.thresholds],
-            moving=moving,
+            fixed=[on for on, _ in within],
+            moving=[on for _, on in within],
             sensitivity=areas_cut_once(self._fixed, on_fixed, self.settings.sensitivity),
             min_distance=lowest,
             max_penetration_fixed=penetration,
             fixed_distances=on_fixed,
             moving_distances=on_moving,
         )
+
+    def distances(
+        self, rotation: Float[np.ndarray, "3 3"], translation: Float[np.ndarray, " 3"]
+    ) -> tuple[Distances, Distances]:
+        """Distances of FIXED's points to MOVING and of MOVING's to FIXED, in the order of `Surface.walk`, at a pose."""
+        if not (np.isfinite(rotation).all() and np.isfinite(translation).all()):
+            raise ValueError("the pose is not finite")
+        on_fixed = self._fixed.distances(self.moving, np.ascontiguousarray(rotation.T), -rotation.T @ translation)
+        return on_fixed, self._moving.distances(self.fixed, np.ascontiguousarray(rotation), translation)
+
+    def within(
+        self,
+        threshold: float,
+        distances: tuple[Distances, Distances],
+        rotation: Float[np.ndarray, "3 3"],
+        translation: Float[np.ndarray, " 3"],
+        refinement: Refinement | None = None,
+    ) -> tuple[AreaWithin, AreaWithin]:
+        """Areas of FIXED and of MOVING within a threshold [m] at the pose that `distances` were measured at.
+
+        The threshold need not be one of the settings, but none above their largest: distances reach no farther.
+        `refinement` in place of that of the settings.
+        """
+        back, origin = np.ascontiguousarray(rotation.T), -rotation.T @ translation
+        on_fixed, on_moving = distances
+        fine = refinement or self.settings.refinement
+        fixed = self._area(self._fixed, self.moving, on_fixed, threshold, back, origin, fine)
+        moving = self._area(self._moving, self.fixed, on_moving, threshold, rotation, translation, fine)
+        return fixed, _in_frame(moving, rotation, translation)
 
     def _area(
         self,
@@ -233,9 +255,10 @@ class ContactPair:
         threshold: float,
         rotation: Float[np.ndarray, "3 3"],
         translation: Float[np.ndarray, " 3"],
+        refinement: Refinement,
     ) -> AreaWithin:
         rule = self.settings.rule
-        refinement = self.settings.refinement if rule == REFINED else AS_GIVEN
+        refinement = refinement if rule == REFINED else AS_GIVEN
         found = area_within(sampled, other, distances, threshold, rotation, translation, refinement)
         if rule in (REFINED, CLIP):
             return found

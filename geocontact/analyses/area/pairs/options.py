@@ -33,6 +33,7 @@ class PairsOptions(Options):
     """
 
     over_time: ClassVar[bool] = True
+    first_frame: ClassVar[str] = "geocontact.analyses.area.pairs.first_frame"
     writes: ClassVar[str] = """
     Writes totals.csv, pairs.csv, report.html (all bodies together), pairs.png, pairs.svg and run.json into OUT, and for
     each pair a folder with what `area` writes; loads.csv and pair_loads.csv (force and moment on each body, of all

@@ -11,18 +11,19 @@ export function hosted() {
   });
 }
 
-/** Marks the faces that the window names on the first body, whose file it is. */
+/** Marks faces of the first body, whose file the window names, or what is within a threshold on each; null: nothing. */
 export function marking(scene, port) {
   port.onmessage = ({ data }) => {
-    const body = scene.bodies[0];
-    body.mark(data && { ...data, faces: bits(data.faces, data.count) });
-    window.__geocontact.marked = body.marked;
+    for (const body of scene.bodies) body.mark(null);
+    if (data?.within) data.within.forEach((levels, k) => scene.bodies[k]?.markWithin(bytes(levels)));
+    else if (data) scene.bodies[0].mark({ ...data, faces: bits(bytes(data.faces), data.count) });
+    window.__geocontact.marked = scene.bodies[0].marked;
     scene.draw();
   };
 }
 
-/** Bits of a text in base64, the first one lowest. */
-function bits(text, count) {
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  return Uint8Array.from({ length: count }, (_, k) => (bytes[k >> 3] >> (k & 7)) & 1);
-}
+/** Bytes of a text in base64. */
+const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+
+/** Bits of bytes, the first one lowest. */
+const bits = (packed, count) => Uint8Array.from({ length: count }, (_, k) => (packed[k >> 3] >> (k & 7)) & 1);

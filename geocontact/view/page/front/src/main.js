@@ -57,10 +57,8 @@ async function picture(data, time, play) {
   const meaning = () => (data.scene.bodies.length ? `${chosen.name} [${chosen.unit}], ` : "");
   tools(scene, drawings, () => [data.title, meaning() + time.words(time.frame())], time, play, data.title);
   time.listen(scene.show);
-  if (element("picking")) {
-    picking(scene, host);
-    host.then((port) => marking(scene, port));
-  }
+  if (element("picking")) picking(scene, host);
+  host.then((port) => marking(scene, port));
   scene.choose = (threshold) => {
     const thresholds = boldFirst(data.scene.thresholds, threshold);
     choices.at(-1).thresholds = thresholds;

@@ -12,13 +12,14 @@ uniform float first, stepSize;
 in vec3 position, normal;
 in float code;
 out vec3 seen, placed;
-out float value, beyond;
+out float value, beyond, level;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   placed = world.xyz;
   seen = mat3(viewMatrix) * mat3(modelMatrix) * normal;
   value = first + (code - 1.0) * stepSize;
   beyond = code > 254.5 ? 1.0 : 0.0;
+  level = code;
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
@@ -32,7 +33,7 @@ uniform bool sectioned, coloured, amounts, sides, marked, divided;
 uniform vec3 grey, plain, inside, one, other;
 uniform float opacity, pixel, stepSize;
 in vec3 seen, placed;
-in float value, beyond;
+in float value, beyond, level;
 out vec4 shown;
 
 float line(float level, float slope, float width) {
@@ -56,7 +57,7 @@ void main() {
     float far = amounts ? 0.0 : smoothstep(-0.5, 0.5, over / slope / pixel);
     colour = mix(plain, mix(near, grey, max(smoothstep(0.0, 0.7, beyond), far)), solid);
   }
-  if (marked && beyond < 0.5) colour = divided && dot(plane.xyz, placed) < plane.w ? other : one;
+  if (marked && level < 128.0) colour = divided && dot(plane.xyz, placed) < plane.w ? other : one;
   colour = colour * light + shine;
   if (coloured && !amounts && beyond < 0.3) {
     for (int k = COUNT - 1; k >= 0; k--) {

@@ -196,9 +196,17 @@ async function bodyOf(described, maps, shared, data, inside) {
     uniforms.divided.value = Boolean(named.medial);
     if (named.medial) uniforms.plane.value.copy(planeInScene(named.medial, named.scale, body));
   }
+  /** Colour what is within a threshold: a level for each vertex, 128 where its distance is the threshold, less within. */
+  function markWithin(levels) {
+    const shown = levels.length === vertices;
+    material.uniforms.marked.value = shown;
+    body.marked = shown ? levels.reduce((sum, each) => sum + (each < 128), 0) : 0;
+    for (let i = 0; shown && i < faces.length; i++) code.array[i] = levels[faces[i]];
+    code.needsUpdate = true;
+  }
   setOpacity(described.opacity);
   const source = described.source && { ...described.source, faces, exact };
-  const body = { group, geometry, poses, setOpacity, setMap, show, mark, marked: 0, source, size: described.size };
+  const body = { group, geometry, poses, setOpacity, setMap, show, mark, markWithin, marked: 0, source, size: described.size };
   return body;
 }
 
