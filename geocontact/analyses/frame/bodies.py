@@ -393,9 +393,9 @@ def _warn_of_sides(role: str, surface: Surface) -> None:
     other = {"moving": "area_fixed", "fixed": "area_moving"}[role]
     if not surface.closed:
         why = surface.topology.why_open or "it has no closed edge"
-        reserve(f"{surface.name} is open ({why}): {other} is unsigned")
-        return
-    if not surface.topology.closed:
+        doubled = f"; its doubled faces alone keep it open: see `assume_closed` {role}"
+        reserve(f"{surface.name} is open ({why}): {other} is unsigned{doubled if surface.topology.closed_once else ''}")
+    elif not surface.topology.closed:
         reserve(f"{surface.name} is treated as closed, as you requested ({surface.topology.why_open})")
     if surface.inside_out:
         reserve(f"{surface.name}: faces point inwards; taken the other way round")
