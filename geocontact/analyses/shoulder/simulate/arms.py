@@ -19,11 +19,12 @@ from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOption
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
-from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, smoothed_arms
+from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer, cylinder_length, lever
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
+from geocontact.shoulder_exoskeleton.smoothed_arms import smoothed_arms
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
 from geocontact.shoulder_exoskeleton.support.controller_numbers import (
     CONTROLLED,
