@@ -219,7 +219,7 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
         "supporting_max_N": s.supporting.max(),
         "shear_max_N": s.shear.max(),
         "slip_mm": 1e3 * s.slip[-1],
-        "support_torque_max_N_m": s.told["support"].max(),
+        "support_torque_max_N_m": s.outputs["support"].max(),
         "out_of_cuff_share": s.out_of_cuff.mean(),
         "steps": float(s.steps),
     }
@@ -237,7 +237,7 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
 def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
     s = arm.simulation
-    told, motion = s.told, s.motion
+    told, motion = s.outputs, s.motion
     led = {}
     if arm.detected is not None and arm.factor is not None:
         by_onset = phases_by_onset(motion.time, motion.elevation, arm.phase)
@@ -309,7 +309,7 @@ def at_elevation_table(arms: Sequence[SimulatedArm], elevations: Sequence[float]
                 "shoulder elevation [deg]": np.degrees(s.motion.elevation),
                 **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
                 "supporting [N]": s.supporting,
-                "support torque [N m]": s.told["support"][:, 0],
+                "support torque [N m]": s.outputs["support"][:, 0],
             }
             own = {name: float(np.interp(place, frames, values)) for name, values in columns.items()}
             rows.append({"arm": arm.side, "frame": round(place) + 1, **own})
