@@ -64,7 +64,7 @@ def require_short_gaps(
 
 
 SHORTEST, LONGEST = 0.05, 0.6
-"""Distance of the two points of an upper arm [m] that is believed; the longest upper arms have about 0.45 m."""
+"""Distance of the two points of an upper arm [m] that is plausible; the longest upper arms have about 0.45 m."""
 FASTEST = 10.0
 """m/s; no marker of an upper arm is faster, not even in throwing."""
 UNLIKE = 0.5

@@ -314,7 +314,7 @@ class Settled:
 
     @property
     def residuals(self) -> Float[np.ndarray, " t"]:
-        """Force left over [N]; also where that is too much."""
+        """Remaining force [N]; also where that is too much."""
         return np.array([np.nan if f.rest is None else f.rest.residual for f in self.frames])
 
     @property
