@@ -8,7 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from geocontact.analyses.area.refused import LITERATURE, refuse_comparison, refuse_errors, refuse_sides
+from geocontact.analyses.area.refused import LITERATURE, refuse_comparison, refuse_errors
 from geocontact.analyses.frame.marks import (
     AngleUnit,
     Excludes,
@@ -35,6 +35,7 @@ from geocontact.analyses.frame.shared_options import (
     Side,
     Sweep,
     Thickness,
+    medial_side,
     refuse_programs,
     refuse_thresholds,
 )
@@ -359,10 +360,14 @@ class AreaOptions(Options):
             raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
-        refuse_sides(self)
-        refuse_comparison(self)
+        if self.split is not None:
+            medial_side(self.split, self.side, self.medial)
+        if self.medial is not None and self.side is not None and self.convention is None:
+            raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
+        refuse_comparison(self.compare, self.tolerance, self.flexion)
         refuse_thresholds(self.threshold)
-        refuse_errors(self)
+        if self.pose_sd is not None or self.markers is not None:
+            refuse_errors(self.rule, self.threshold, self.draws, self.seed, self.pose_sd)
         refuse_programs(self.export, self.osim)
         if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
             raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
