@@ -25,7 +25,7 @@ from pathlib import Path
 
 from benchmarks.machine import write_results
 from benchmarks.study.leg_chain import STEPS, Measured, made, measured, name, tables, typed_here
-from geocontact.study.store import RESULTS, TOLD, WORK, Store
+from geocontact.study.store import REPORT, RESULTS, WORK, Store
 
 SUBJECTS = 2
 FEW = 4096
@@ -173,7 +173,7 @@ def left_by_a_kill(out: Path, _: Path) -> None:
     store = Store(out / RESULTS)
     draft = store.folder / WORK / "0123456789abcdef" / "out"
     draft.mkdir(parents=True)
-    (draft / TOLD).write_text("{", encoding="utf-8")
+    (draft / REPORT).write_text("{", encoding="utf-8")
     for each in store.addresses()[:2]:
         (store.folder / WORK / f"fedcba9876543210-{each}").write_bytes(b"...")
     (store.folder / ".lock").write_text("process 1 on elsewhere", encoding="utf-8")
@@ -199,7 +199,7 @@ FAULTS: dict[str, Fault] = {
     "an earlier step's file is removed": Fault(only(ik=1), lambda o, _: (kept(o, "ik") / "ik.mot").unlink()),
     "an earlier step's results are removed": Fault(only(markers=1), lambda o, _: shutil.rmtree(kept(o, "markers"))),
     "a last table is damaged": Fault(only(id=1), lambda o, _: cut(kept(o, "id") / "forces.parquet")),
-    "trial.json is cut": Fault(only(ik=1), lambda o, _: cut(kept(o, "ik") / TOLD)),
+    "trial.json is cut": Fault(only(ik=1), lambda o, _: cut(kept(o, "ik") / REPORT)),
     "run.json is cut": Fault(only(id=1), lambda o, _: cut(kept(o, "id") / "run.json")),
     "times of files are wrong": Fault(only(), other_times),
     "a killed run left drafts and a lock": Fault(only(), left_by_a_kill),

@@ -93,11 +93,11 @@ def one_trial(level: float, cuff: Cuff, device: Device) -> dict[str, float]:
         "supporting_N": float(found.supporting[working].mean()),
         "most_at_lowering_N": float(found.supporting[lowering].max()),
         "shear_N": float(found.shear[working].mean()),
-        "couple_N_m": float(np.linalg.norm(found.told["couple"][working], axis=1).mean()),
-        "peak_Pa": float(found.told["peak"][working].mean()),
-        "pressed": float(found.told["share"][working].mean()),
+        "couple_N_m": float(np.linalg.norm(found.outputs["couple"][working], axis=1).mean()),
+        "peak_Pa": float(found.outputs["peak"][working].mean()),
+        "pressed": float(found.outputs["share"][working].mean()),
         "times_real_time": float(np.ptp(motion.time) / seconds),
-        "off_at_most_N": float(np.linalg.norm(found.told["force"] - exact.told["force"], axis=1).max()),
+        "off_at_most_N": float(np.linalg.norm(found.outputs["force"] - exact.outputs["force"], axis=1).max()),
     }
 
 

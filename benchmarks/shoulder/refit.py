@@ -162,7 +162,7 @@ def of_a_surface(kept: Path, way: Way, kind: str) -> dict[str, float]:
     trial, found = trial_of(name), recorded(kept, kind, name, way)
     wearer, level = wearer_of(trial.participant), float(trial.condition.level or 0.0)
     s = simulate_arm(motion_of(trial, way), as_a_surface(DEVICES[way]), wearer, level, cuff="surface")
-    exo, force = s.elevation - found.logger, np.maximum(s.told["normal"][:, 2], 0.0) - found.mat
+    exo, force = s.elevation - found.logger, np.maximum(s.outputs["normal"][:, 2], 0.0) - found.mat
     return {"exo_deg": float(np.degrees(rms(exo))), "force_N": rms(force)}
 
 

@@ -102,7 +102,7 @@ def tolerance(arms: list[Any], allowed: float, rounds: int, *, machine_code: boo
             exact = simulated(arm, level, tolerance=REFERENCE)
             one = simulated(arm, level, tolerance=allowed, machine_code=machine_code)
             angle = max(angle, float(np.degrees(np.abs(one.angles - exact.angles)).max()))
-            off = np.linalg.norm(one.told["force"] - exact.told["force"], axis=1)
+            off = np.linalg.norm(one.outputs["force"] - exact.outputs["force"], axis=1)
             force, steps = max(force, float(off.max())), max(steps, one.steps)
             seconds = cpu(
                 lambda arm=arm, level=level: simulated(arm, level, tolerance=allowed, machine_code=machine_code), rounds
@@ -149,7 +149,7 @@ def energy(arm: Any) -> dict[str, float]:
     still = replace(
         arm, time=fine, interface=place, shoulder=place, elevation=np.zeros(len(fine)), gravity=arm.gravity[0]
     )
-    told = simulated(still, 1.0, tolerance=1e-8).told
+    told = simulated(still, 1.0, tolerance=1e-8).outputs
     balance = told["power_in"][:, 0] - told["power_lost"][:, 0]
     came = np.concatenate([[0.0], np.cumsum(0.5e-3 * (balance[1:] + balance[:-1]))])
     off = np.abs(told["energy"][:, 0] - told["energy"][0, 0] - came)

@@ -203,8 +203,8 @@ class Separability:
     from_all: float
 
     @property
-    def told(self) -> bool:
-        """Whether angle and force tell the two apart at all."""
+    def separable(self) -> bool:
+        """Whether angle and force separate the two at all."""
         return self.from_all > SERIES
 
 

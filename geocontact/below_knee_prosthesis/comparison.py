@@ -14,10 +14,9 @@ from geocontact.below_knee_prosthesis.evaluation import (
     QUANTITIES,
     JudgedStance,
     MeasuredCurve,
-    Oddness,
-    oddness,
     trivial_curves,
 )
+from geocontact.below_knee_prosthesis.outliers import Oddness, oddness
 from geocontact.identify.signals.agreement import Agreement, agreement
 
 PLAIN = (MEAN, ANOTHER)

@@ -91,7 +91,7 @@ Vector = Float[np.ndarray, " 3"]
 OFF_LINE = 5e-3
 """m; least distance of a segment's markers from one line."""
 THIGHS, SHANKS, KNEES = (0.2, 0.7), (0.2, 0.7), (0.05, 0.2)
-"""m; lengths, and distances of epicondyles, that are believed."""
+"""m; lengths, and distances of epicondyles, that are plausible."""
 FEWEST = 3
 """Markers that fix a segment."""
 
@@ -151,13 +151,13 @@ def require_forward(seen: MarkerTrajectories, at: Mapping[str, Vector], foot: tu
 
 def require_lengths(seen: MarkerTrajectories, thigh: float, shank: float, knee: float) -> None:
     """Plausible lengths of a leg [m], else an error; `knee` is the distance of the epicondyles."""
-    for name, value, believed in (("thigh", thigh, THIGHS), ("shank", shank, SHANKS), ("knee", knee, KNEES)):
-        require_length(seen, name, value, believed)
+    for name, value, plausible in (("thigh", thigh, THIGHS), ("shank", shank, SHANKS), ("knee", knee, KNEES)):
+        require_length(seen, name, value, plausible)
 
 
-def require_length(seen: MarkerTrajectories, name: str, value: float, believed: tuple[float, float]) -> None:
-    """InputError for a length that is not believed [m]."""
-    low, high = believed
+def require_length(seen: MarkerTrajectories, name: str, value: float, plausible: tuple[float, float]) -> None:
+    """InputError for a length that is not plausible [m]."""
+    low, high = plausible
     if not low <= value <= high:
         what = f"the {name} would measure {value:.3g} m, not {low:g} to {high:g} m"
         raise InputError(seen.source, "`static`", what, "is the unit in the file right? are the markers named right?")
@@ -166,7 +166,7 @@ def require_length(seen: MarkerTrajectories, name: str, value: float, believed: 
 HIP = ((-0.24, -9.9e-3), (-0.30, -10.9e-3), (0.33, 7.3e-3))
 """Forward and up per pelvic depth and width, outward per width, and constants [m]: Harrington et al., table 4."""
 WIDTHS = (0.12, 0.5)
-"""m; distances of the front spines that are believed."""
+"""m; distances of the front spines that are plausible."""
 FEET = 0.15
 """Share by which the markers of heel and toe may be apart more or less than the keel is long."""
 

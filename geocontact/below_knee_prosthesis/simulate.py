@@ -203,9 +203,9 @@ def simulate_stance(
         steps=steps,
     )
     columns = found.q.T, found.u.T, found.z.T, inputs.at(time).T, np.repeat(p[:, None], len(time), axis=1)
-    told = told_at(model, *columns)
-    loads = loads_at(foot.at(fulcrum), found.q[:, 8:], found.u[:, 8:], told.poses, told.rate, ground)
-    return Stance(motion, foot, fulcrum, bushing, push, time, found, told.poses, loads, told.socket, ground)
+    outputs = outputs_at(model, *columns)
+    loads = loads_at(foot.at(fulcrum), found.q[:, 8:], found.u[:, 8:], outputs.poses, outputs.rate, ground)
+    return Stance(motion, foot, fulcrum, bushing, push, time, found, outputs.poses, loads, outputs.socket, ground)
 
 
 def recorded_start(
@@ -224,7 +224,7 @@ def recorded_speed(motion: LegMotion) -> Float[np.ndarray, "t 3"]:
 
 
 @dataclass(frozen=True, eq=False)
-class ToldStates:
+class StateOutputs:
     """The keel's frame in the ground over some states, its rate, and the load on the socket [N m, N]."""
 
     poses: RigidTransform
@@ -232,26 +232,26 @@ class ToldStates:
     socket: Float[np.ndarray, "t 6"]
 
 
-def told_at(
+def outputs_at(
     model: StanceModel,
     q: Float[np.ndarray, "n t"],
     u: Float[np.ndarray, "n t"],
     z: Float[np.ndarray, "k t"],
     w: Float[np.ndarray, "w t"],
     p: Float[np.ndarray, "p t"],
-) -> ToldStates:
+) -> StateOutputs:
     """Values of states, inputs and parameters, each in a column."""
     values = np.array(model.outputs.map(q.shape[1])(q, u, z, w, p)).T
     ends = np.cumsum([0, *OUTPUTS.values()])
-    told = {name: values[:, ends[k] : ends[k + 1]] for k, name in enumerate(OUTPUTS)}
-    turn = Rotation.from_matrix(told["rotation"].reshape(-1, 3, 3))
-    return ToldStates(RigidTransform.from_components(told["place"], turn), _rate(told), told["socket"])
+    outputs = {name: values[:, ends[k] : ends[k + 1]] for k, name in enumerate(OUTPUTS)}
+    turn = Rotation.from_matrix(outputs["rotation"].reshape(-1, 3, 3))
+    return StateOutputs(RigidTransform.from_components(outputs["place"], turn), _rate(outputs), outputs["socket"])
 
 
-def _rate(told: dict[str, Float[np.ndarray, "t _"]]) -> Float[np.ndarray, "t 4 4"]:
+def _rate(outputs: dict[str, Float[np.ndarray, "t _"]]) -> Float[np.ndarray, "t 4 4"]:
     """Time derivative of the pose's matrix."""
-    rate = np.zeros((len(told["place"]), 4, 4))
-    turn = told["rotation"].reshape(-1, 3, 3)
-    rate[:, :3, :3] = np.cross(told["spin"][:, None], turn.swapaxes(1, 2)).swapaxes(1, 2)
-    rate[:, :3, 3] = told["speed"]
+    rate = np.zeros((len(outputs["place"]), 4, 4))
+    turn = outputs["rotation"].reshape(-1, 3, 3)
+    rate[:, :3, :3] = np.cross(outputs["spin"][:, None], turn.swapaxes(1, 2)).swapaxes(1, 2)
+    rate[:, :3, 3] = outputs["speed"]
     return rate

@@ -44,7 +44,7 @@ Listener = Callable[[str], None]
 """Is called with what is being done, as each stage of a diagnosis begins."""
 
 
-def nobody(_: str) -> None:
+def no_listener(_: str) -> None:
     """Does not listen."""
 
 
@@ -100,7 +100,7 @@ class Attribution:
     offered: tuple[str, ...] = ()
 
 
-def attribute(case: GapCase, system: System, offer: Offer, at: Listener = nobody) -> Attribution:
+def attribute(case: GapCase, system: System, offer: Offer, at: Listener = no_listener) -> Attribution:
     """Which effect a case lacks; `offer` gives the candidates for a system once its scale is known.
 
     A mistake in the data is undone before anything else is judged: a gross one is found beforehand; one that refitted

@@ -25,7 +25,7 @@ from geocontact.data.diagnosis import (
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
+from geocontact.gap.attribute import Attribution, Listener, attribute, no_listener
 from geocontact.gap.budget_verdict import (
     by_budget,
     grows,
@@ -106,7 +106,7 @@ class Findings:
     surface: tuple[SurfaceGap, ...] = ()
 
 
-def diagnose(case: GapCase, system: System, version: str = "", at: Listener = nobody) -> Findings:
+def diagnose(case: GapCase, system: System, version: str = "", at: Listener = no_listener) -> Findings:
     """Where the base model of a case misses the measurement, why, and how far the gap shrinks, on one core.
 
     Parameters
@@ -130,7 +130,9 @@ def _diagnosed(case: GapCase, system: System, version: str, at: Listener) -> Fin
     return findings(case, attribute(case, system, candidates, at), began, version, at)
 
 
-def findings(case: GapCase, found: Attribution, began: float, version: str = "", at: Listener = nobody) -> Findings:
+def findings(
+    case: GapCase, found: Attribution, began: float, version: str = "", at: Listener = no_listener
+) -> Findings:
     """What follows from an answer: where, how far, what these trials cannot tell, what to record next.
 
     Parameters

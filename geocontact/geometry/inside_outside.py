@@ -107,7 +107,8 @@ def resolve_inside_outside(
 ) -> tuple[Int8[np.ndarray, " n"], int]:
     """Sides with doubts settled by winding number, and how many points off the surface stayed undecided.
 
-    Those are taken as outside, as are points on the surface itself, where the side does not matter.
+    Those are taken as outside, as are points beyond the body's box and those on the surface itself, where the side does
+    not matter.
     """
     if not surface.closed:
         return side, 0
@@ -115,6 +116,7 @@ def resolve_inside_outside(
     ask = side == 0
     if not surface.normals_trusted:
         ask = ((local > root[:3]) & (local < root[3:])).all(axis=1)
+        side = np.where(ask, side, np.int8(1))
     if not ask.any():
         return side, 0
     side = side.copy()

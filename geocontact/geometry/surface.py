@@ -150,8 +150,16 @@ class Surface:
 
     @cached_property
     def inside_out(self) -> bool:
-        """Whether the faces of a closed surface point inwards; sides are turned over then."""
-        return self.closed and signed_volume(self.vertices, self.faces) < 0.0
+        """Whether the faces of a surface that is closed, or would be without doubled faces, point inwards.
+
+        Sides and normals are turned over then.
+        """
+        return (self.closed or self.topology.closed_once) and signed_volume(self.vertices, self.enclosing) < 0.0
+
+    @property
+    def enclosing(self) -> Int[np.ndarray, "k 3"]:
+        """Faces that say what is inside: all, but doubled ones once where these alone keep the surface open."""
+        return self.faces if self.topology.closed or not self.topology.closed_once else self.faces[~self.repeated]
 
     @cached_property
     def centre(self) -> Float[np.ndarray, " 3"]:
@@ -253,7 +261,7 @@ class Surface:
         import igl
 
         bvh = igl.FastWindingNumberBVH()
-        bvh.init(self.local, self.faces.astype(np.int64))
+        bvh.init(self.local, self.enclosing.astype(np.int64))
         return bvh
 
     def proximity(self, points: Float[np.ndarray, "n 3"], limit: float = np.inf) -> Proximity:

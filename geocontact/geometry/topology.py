@@ -39,7 +39,8 @@ def neighbours(faces: Int[np.ndarray, "m 3"]) -> Int[np.ndarray, "m 3"]:
 class Topology:
     """Edge count of a surface after merging coincident vertices; faces with two equal corners are left out.
 
-    `open_edges` belong to one face only, `irregular_edges` to more than two or to two of the same direction.
+    `open_edges` belong to one face only, `irregular_edges` to more than two or to two of the same direction;
+    `closed_once` says whether there are none of either where each doubled face counts once.
     """
 
     edges: int
@@ -47,6 +48,7 @@ class Topology:
     irregular_edges: int
     duplicate_faces: int
     merged: Int[np.ndarray, " n"]
+    closed_once: bool
 
     @property
     def closed(self) -> bool:
@@ -71,21 +73,23 @@ def topology(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) 
     merged = first_of_coincident(vertices)
     f = merged[faces]
     f = f[(f[:, 0] != f[:, 1]) & (f[:, 1] != f[:, 2]) & (f[:, 2] != f[:, 0])]
+    again = repeated_faces(f)
+    edges, ends, irregular = _edges(f, len(vertices))
+    once = _edges(f[~again], len(vertices)) if again.any() else (edges, ends, irregular)
+    return Topology(edges, ends, irregular, int(again.sum()), merged, once[0] > 0 and once[1:] == (0, 0))
+
+
+def _edges(f: Int[np.ndarray, "m 3"], vertex_count: int) -> tuple[int, int, int]:
+    """How many there are, how many belong to one face only, and how many are irregular."""
     start = f.ravel()
     end = np.roll(f, -1, axis=1).ravel()
     low, high = np.minimum(start, end), np.maximum(start, end)
-    key = low * np.int64(len(vertices)) + high
+    key = low * np.int64(vertex_count) + high
     forward = (start < end).astype(np.int64)
     _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
     ahead = np.bincount(inverse, weights=forward, minlength=len(count))
     regular = (count == 2) & (ahead == 1)
-    return Topology(
-        edges=len(count),
-        open_edges=int((count == 1).sum()),
-        irregular_edges=int((~regular & (count != 1)).sum()),
-        duplicate_faces=int(repeated_faces(f).sum()),
-        merged=merged,
-    )
+    return len(count), int((count == 1).sum()), int((~regular & (count != 1)).sum())
 
 
 def signed_volume(vertices: Float[np.ndarray, "n 3"], faces: Int[np.ndarray, "m 3"]) -> float:

@@ -25,7 +25,6 @@ import warnings
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import date
 from os.path import isfile, lexists
 from pathlib import Path
 from typing import Annotated, Any, TypeGuard, TypeVar, get_args, get_origin
@@ -43,10 +42,11 @@ from pydantic import (
     model_validator,
 )
 from pydantic.fields import FieldInfo
-from pydantic_core import CoreSchema, ErrorDetails, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.plausible import Plausible
+from geocontact.io.document_errors import LONGEST, input_error, refusal, shown
 from geocontact.io.text.column_names import near_names
 from geocontact.io.text.file_preflight import regular_file
 from geocontact.io.text.toml_text import toml_of
@@ -54,32 +54,9 @@ from geocontact.io.text.units import si_unit
 
 LARGEST = 1_000_000
 """Bytes of a description, unless its reader says otherwise."""
-LONGEST = 80
-"""Signs of a key that are repeated in a message."""
 BESIDE = ("source", "note")
 """Keys that a value with its unit may have besides."""
-BOUNDS = {
-    "greater_than": "above",
-    "greater_than_equal": "at least",
-    "less_than": "below",
-    "less_than_equal": "at most",
-}
-CHECK = "check the value and its unit"
 _FILE_NAME = re.compile(r"[\w-]{1,40}")
-
-
-def refusal(what: str, remedy: str = "", *, example: str = "", at: tuple[str | int, ...] = ()) -> PydanticCustomError:
-    """What a validator raises.
-
-    Parameters
-    ----------
-    example
-        A value as it may be written: the remedy is to write it at the key.
-    at
-        Keys, and numbers in lists, from what is validated on to the place that is meant; "" after those of a table that
-        is meant itself.
-    """
-    return PydanticCustomError("refused", "{what}", {"what": what, "remedy": remedy, "example": example, "at": at})
 
 
 class Document(BaseModel):
@@ -167,11 +144,11 @@ class WithUnit:
             raise refusal("is not a value with its unit", example=self.example)
         value, unit = stated["value"], str(stated["unit"])
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise refusal(f"{_shown(value)} is not a finite number", example=self.example)
+            raise refusal(f"{shown(value)} is not a finite number", example=self.example)
         number = float(value)
         si, factor = (self.si, 1.0) if unit == self.si else si_unit(unit) or ("", 1.0)
         if si not in (self.si, "-" if self.si == "1" else self.si):
-            raise refusal(f"{_shown(unit)} is not a unit of it", f"its SI unit is {self.si}")
+            raise refusal(f"{shown(unit)} is not a unit of it", f"its SI unit is {self.si}")
         wrong = None if isinstance(self.known, str) else self.known.refusal(number * factor, number)
         if wrong is not None:
             raise refusal(*wrong)
@@ -245,7 +222,7 @@ class Listed:
     def _require_apart(self, rows: tuple[Any, ...]) -> tuple[Any, ...]:
         twice = self.again(each.name for each in rows)
         if twice is not None:
-            raise refusal(f"two have the name {_shown(twice)}", "give each its own name")
+            raise refusal(f"two have the name {shown(twice)}", "give each its own name")
         return rows
 
 
@@ -260,48 +237,7 @@ def checked(path: Path, kind: Any, content: object) -> Any:
     try:
         return TypeAdapter(kind).validate_python(content, context=path)
     except ValidationError as error:
-        raise _input_error(path, error.errors(include_url=False)[0]) from error
-
-
-def _input_error(path: Path, first: ErrorDetails) -> InputError:
-    """In the words of `refusal`, or for what pydantic refuses by itself."""
-    context: dict[str, Any] = {"at": (), **first.get("ctx", {})}
-    place, key = _place((*first["loc"], *context["at"]))
-    match first["type"]:
-        case "refused":
-            remedy = f"write {key} = {context['example']}" if context["example"] else context["remedy"]
-            return InputError(path, place, context["what"], remedy)
-        case "dict_type" | "mapping_type":
-            return InputError(path, place, "is not a table", "write names with values")
-        case "float_type" | "finite_number":
-            return InputError(path, place, f"{_shown(first['input'])} is not a finite number", f"write {key} = 1.5")
-        case "bool_type":
-            return InputError(path, place, f"{_shown(first['input'])} is neither true nor false", f"write {key} = true")
-        case "literal_error":
-            choice = context["expected"].replace("'", "")
-            return InputError(path, place, f"{_shown(first['input'])} is none", f"write {choice}")
-        case "greater_than" | "greater_than_equal" | "less_than" | "less_than_equal" as kind:
-            return InputError(path, place, f"is not {BOUNDS[kind]} {next(iter(first['ctx'].values())):g}", CHECK)
-        case "string_type":
-            return InputError(path, place, f"{_shown(first['input'])} is not a text", "write it in quotes")
-        case _:
-            wanted = first["msg"].removeprefix("Input ")
-            return InputError(path, place, f"{_shown(first['input'])} cannot be", f"it {wanted}")
-
-
-def _place(loc: tuple[str | int, ...]) -> tuple[str, str]:
-    """Where in the file, `[persons.P1] mass` or `[[trials]] 2 mass`, and the key alone."""
-    numbers = [part + 1 for part in loc if isinstance(part, int)]
-    *tables, key = ["".join(filter(str.isprintable, part))[:LONGEST] for part in loc if isinstance(part, str)] or [""]
-    if numbers and tables:
-        return f"[[{'.'.join(tables)}]] {numbers[0]} {key}".strip(), key
-    if numbers:
-        return f"[[{key}]] {numbers[0]}", key
-    return (f"[{'.'.join(tables)}] {key}".strip() if tables else key), key
-
-
-def _shown(value: object) -> str:
-    return f"{value if isinstance(value, date) else repr(value)!s:.60}"
+        raise input_error(path, error.errors(include_url=False)[0]) from error
 
 
 def _stated(table: Document) -> dict[str, Any]:
@@ -317,14 +253,14 @@ def _word(value: object) -> object:
 
 def _file_name(name: str) -> str:
     if not _FILE_NAME.fullmatch(name):
-        raise refusal(f"{_shown(name)} cannot be that of a file", "write letters, digits, - and _")
+        raise refusal(f"{shown(name)} cannot be that of a file", "write letters, digits, - and _")
     return name
 
 
 def _beside(named: object, info: Any) -> Path:
     """`info` is pydantic's ValidationInfo, whose context is the path of the description."""
     if not isinstance(named, str) or not named.strip():
-        raise refusal(f"{_shown(named)} is not a path", "write it in quotes, from the folder of this file")
+        raise refusal(f"{shown(named)} is not a path", "write it in quotes, from the folder of this file")
     return Path(info.context).parent / named
 
 
@@ -352,7 +288,7 @@ def _names(value: object) -> tuple[str, ...]:
 
 def _value(value: object) -> Value:
     if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
-        raise refusal(f"{_shown(value)} is not a value", "write a text in quotes, a number, true or false")
+        raise refusal(f"{shown(value)} is not a value", "write a text in quotes, a number, true or false")
     return value
 
 

@@ -198,7 +198,7 @@ def output_slices() -> dict[str, slice]:
     return {name: slice(int(ends[i]), int(ends[i + 1])) for i, name in enumerate(OUTPUTS)}
 
 
-Told = dict[str, Float[np.ndarray, "t _"]]
+Outputs = dict[str, Float[np.ndarray, "t _"]]
 """`OUTPUTS` by name.
 
 force

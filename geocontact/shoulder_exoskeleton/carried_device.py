@@ -32,12 +32,12 @@ def forces_of_device(s: ArmSimulation) -> dict[str, tuple[Rows, Rows, Rows]]:
     Of the cuff on the upper arm, at the sphere's centre; of the same on the trunk, the opposite; and of the device that
     the trunk carries, its weight and inertia at the first passive joint.
     """
-    force, place, moment = s.told["force"], s.motion.interface, s.told["moment"]
+    force, place, moment = s.outputs["force"], s.motion.interface, s.outputs["moment"]
     carried, turned = weight_and_inertia(s)
     return {
         "cuff": (force, place, moment),
         "trunk": (-force, place, -moment),
-        "device": (carried, s.told["joints"][:, :3], turned),
+        "device": (carried, s.outputs["joints"][:, :3], turned),
     }
 
 

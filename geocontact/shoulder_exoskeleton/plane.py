@@ -45,7 +45,7 @@ def plane_arm(s: ArmSimulation) -> PlaneArm:
     d, of, p = s.device, slices(), adjusted_numbers(s.device, s.wearer, 1.0)
     upper = s.motion.interface - s.motion.shoulder
     length = np.linalg.norm(upper, axis=1)
-    hinge = s.told["joints"].reshape(-1, 4, 3)[:, ACTIVE] - s.motion.shoulder
+    hinge = s.outputs["joints"].reshape(-1, 4, 3)[:, ACTIVE] - s.motion.shoulder
     across = upper[:, :2] / np.maximum(np.linalg.norm(upper[:, :2], axis=1, keepdims=True), 1e-9)
     forwards = (hinge[:, :2] * across).sum(axis=1)
     weights = np.linalg.norm(upper[:, :2], axis=1)  # an arm that hangs has no plane
@@ -84,7 +84,7 @@ def armrest_force(s: ArmSimulation, pressed: Float[np.ndarray, " t"] | None = No
         As the simulation was given it [N].
     """
     k, strap = s.device["k"], s.device["strap"]
-    radial = s.told["place"][:, 1:].copy()
+    radial = s.outputs["place"][:, 1:].copy()
     if pressed is not None:
         radial[:, 1] -= pressed / k
     angle = -np.pi * (np.arange(PLACES // 2) + 0.5) / (PLACES // 2)  # from medial downwards

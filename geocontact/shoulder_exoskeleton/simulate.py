@@ -16,7 +16,7 @@ from jaxtyping import Bool, Float
 
 from geocontact.dynamics.recorded_inputs import RecordedInputs
 from geocontact.dynamics.simulate import SimulatedMotion
-from geocontact.shoulder_exoskeleton.arm_model import ArmModel, Told, arm_model, output_slices
+from geocontact.shoulder_exoskeleton.arm_model import ArmModel, Outputs, arm_model, output_slices
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion
 from geocontact.shoulder_exoskeleton.arm_numbers import adjusted_numbers, slices
 from geocontact.shoulder_exoskeleton.cuff_contact import (
@@ -174,8 +174,8 @@ class ArmSimulation:
         Force of the cylinder [N].
     recorded
         Inputs of the equations, which are those of a right arm (`recorded_arm.arm_inputs`).
-    told
-        Forces and places, see `arm_model.Told`; in the device's frame, the left arm's medial to the right.
+    outputs
+        Forces and places, see `arm_model.Outputs`; in the device's frame, the left arm's medial to the right.
     steps, refused
         Of the integration.
     """
@@ -189,7 +189,7 @@ class ArmSimulation:
     rates: Float[np.ndarray, "t 3"]
     cylinder: Float[np.ndarray, " t"]
     recorded: Float[np.ndarray, "t w"]
-    told: Told
+    outputs: Outputs
     steps: int
     refused: int
 
@@ -201,19 +201,19 @@ class ArmSimulation:
     @property
     def supporting(self) -> Float[np.ndarray, " t"]:
         """Interface force that raises the human arm [N]: the paper's z-component."""
-        return self.told["in_cuff"][:, 2]
+        return self.outputs["in_cuff"][:, 2]
 
     @property
     def shear(self) -> Float[np.ndarray, " t"]:
         """Size of the friction on the arm [N]."""
-        return np.asarray(np.linalg.norm(self.told["friction"], axis=1))
+        return np.asarray(np.linalg.norm(self.outputs["friction"], axis=1))
 
     @property
     def shear_around(self) -> Float[np.ndarray, " t"]:
         """Friction on the arm around the cuff, positive from medial towards raising [N]; 0 on its axis, where around
         has no direction.
         """
-        radial, friction = self.told["place"][:, 1:], self.told["friction"][:, 1:]
+        radial, friction = self.outputs["place"][:, 1:], self.outputs["friction"][:, 1:]
         size = np.hypot(*radial.T)
         turned = radial[:, 0] * friction[:, 1] - radial[:, 1] * friction[:, 0]
         return np.asarray(np.divide(turned, size, out=np.zeros_like(size), where=size > 0.0))
@@ -221,19 +221,19 @@ class ArmSimulation:
     @property
     def slip(self) -> Float[np.ndarray, " t"]:
         """Distance that the arm has slid along the wall since the start [m]."""
-        speed = np.linalg.norm(self.told["sliding"], axis=1)
+        speed = np.linalg.norm(self.outputs["sliding"], axis=1)
         steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(self.motion.time)
         return np.concatenate([[0.0], np.cumsum(steps)])
 
     @property
     def out_of_cuff(self) -> Bool[np.ndarray, " t"]:
         """Where the sphere's centre is beyond an end of the cuff."""
-        return np.asarray(np.abs(self.told["place"][:, 0]) > 0.5 * self.device["cuff_length"])
+        return np.asarray(np.abs(self.outputs["place"][:, 0]) > 0.5 * self.device["cuff_length"])
 
     @property
     def at_stop(self) -> Bool[np.ndarray, "t 3"]:
         """Which joints are in a stop."""
-        return np.asarray(self.told["stops"] != 0.0)
+        return np.asarray(self.outputs["stops"] != 0.0)
 
 
 def simulate_arm(
@@ -323,11 +323,11 @@ class MovedArm:
     def simulation(self, most_lost: float = MOST_LOST) -> ArmSimulation:
         """The arm with its forces; `OutOfCuffError` as of `simulate_arm`."""
         found, motion = self.found, self.motion
-        told = _simulated(self.model, found.q, found.u, found.z, self.recorded, self.numbers)
+        outputs = _simulated(self.model, found.q, found.u, found.z, self.recorded, self.numbers)
         if motion.side == "left":
-            told["force"] = told["force"] * MIRROR
-            told["moment"] = -told["moment"] * MIRROR
-            told["joints"] = told["joints"] * np.tile(MIRROR, 4)
+            outputs["force"] = outputs["force"] * MIRROR
+            outputs["moment"] = -outputs["moment"] * MIRROR
+            outputs["joints"] = outputs["joints"] * np.tile(MIRROR, 4)
         arm = ArmSimulation(
             motion,
             self.device,
@@ -338,7 +338,7 @@ class MovedArm:
             found.u,
             found.z[:, 0],
             self.recorded,
-            told,
+            outputs,
             found.steps,
             found.refused,
         )
@@ -348,8 +348,8 @@ class MovedArm:
 
 def require_held(arm: ArmSimulation, most_lost: float = MOST_LOST) -> None:
     """`OutOfCuffError` where the sphere is far out of the cuff for more than this share of the time."""
-    hinge = arm.told["joints"].reshape(-1, 4, 3)[:, JOINTS.index("elevation")]
-    require_in_cuff(arm.motion, arm.device, arm.wearer, arm.told["place"][:, 0], hinge, most_lost)
+    hinge = arm.outputs["joints"].reshape(-1, 4, 3)[:, JOINTS.index("elevation")]
+    require_in_cuff(arm.motion, arm.device, arm.wearer, arm.outputs["place"][:, 0], hinge, most_lost)
 
 
 def move_arm(
@@ -383,6 +383,6 @@ def _simulated(
     z: Float[np.ndarray, "t k"],
     w: Float[np.ndarray, "t w"],
     p: Float[np.ndarray, " p"],
-) -> Told:
+) -> Outputs:
     found = np.array(model.outputs.map(len(q))(q.T, u.T, z.T, w.T, np.repeat(p[:, None], len(q), axis=1))).T
     return {name: found[:, place] for name, place in output_slices().items()}

@@ -236,7 +236,7 @@ def cuff_load(s: ArmSimulation, frame: DeviceFrame) -> Load:
     back = np.swapaxes(frame.rotation, 1, 2)
     force, place, moment = (
         np.asarray(np.einsum("tij,tj->ti", back, each))
-        for each in (s.told["force"], s.motion.interface, s.told["moment"])
+        for each in (s.outputs["force"], s.motion.interface, s.outputs["moment"])
     )
     return Load(force, frame.origin + place, moment)
 

@@ -25,7 +25,8 @@ from pydantic import AfterValidator, Field
 
 from geocontact.analyses.frame.workers import OURS, SAFE_PATH
 from geocontact.data.errors import InputError
-from geocontact.io.documents import Document, Holds, Word, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, Holds, Word
 from geocontact.study.limits import TRIES, Count, Size, TrialLimits, bytes_of, size_text
 
 WORD = re.compile(r"[\w.@:+-]{1,80}")

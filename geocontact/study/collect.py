@@ -31,7 +31,7 @@ class Part:
 
 def collect(kept: Sequence[Kept], store: Store, folder: Path) -> list[str]:
     """Write each table that trials have as .parquet and .nc into `folder`; their names."""
-    names = dict.fromkeys(name for _, address in kept for name in store.told(address)["tables"])
+    names = dict.fromkeys(name for _, address in kept for name in store.report(address)["tables"])
     for name in names:
         parts = list(_parts(kept, store, name))
         schema = _schema(parts)

@@ -93,7 +93,7 @@ def require_summary(study: StudyFile, one: tuple[CohortTrial, str], store: Store
     if name and file.is_file():
         _required(study, file, name)
     elif name and alike:
-        known = ", ".join(store.told(one[1])["tables"])
+        known = ", ".join(store.report(one[1])["tables"])
         raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", f"there are {known}")
 
 
@@ -119,7 +119,7 @@ def _required(study: StudyFile, file: Path, name: str) -> tuple[str, ...]:
 def _first_over_time(done: Sequence[tuple[CohortTrial, str]], store: Store) -> str:
     for trial_and_address in done[:1]:
         place = store.place(trial_and_address[1])
-        for name in store.told(trial_and_address[1])["tables"]:
+        for name in store.report(trial_and_address[1])["tables"]:
             if over_time(pd.read_parquet(place / f"{name}.parquet")):
                 return str(name)
     return ""

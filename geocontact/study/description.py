@@ -56,19 +56,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, ConfigDict, Field, PlainValidator, PrivateAttr, model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import (
-    AnyValue,
-    Document,
-    FileName,
-    Holds,
-    Names,
-    Rows,
-    Text,
-    Value,
-    Values,
-    checked,
-    refusal,
-)
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import AnyValue, Document, FileName, Holds, Names, Rows, Text, Value, Values, checked
 from geocontact.io.text.toml_text import numbers_in, toml_of
 from geocontact.io.text.units import LENGTH
 from geocontact.study.cluster import ClusterSettings

@@ -24,7 +24,8 @@ from typing import Annotated, Any, TextIO
 from pydantic import AfterValidator, Field
 
 from geocontact.data.plausible import TRIAL_LIMIT
-from geocontact.io.documents import Document, Holds, Text, WithUnit, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, Holds, Text, WithUnit
 
 SIZE = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?([kMGT])(i?)B")
 TRIES = 2

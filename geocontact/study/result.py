@@ -152,9 +152,9 @@ class CohortResult(Result):
         A trial whose inputs contradict each other beside its result has such a mistake.
         """
         states = {one.outcome.state for one in self.every} - {DONE, LEFT, PLANNED, WITHOUT}
-        for told in (self.store.told(one.address) for one in self.every if one.outcome.state == DONE):
-            if told.get("fit") == CONTRADICTS:
-                states.add(WRONG if told.get("inputs contradict") else FAILED)
+        for report in (self.store.report(one.address) for one in self.every if one.outcome.state == DONE):
+            if report.get("fit") == CONTRADICTS:
+                states.add(WRONG if report.get("inputs contradict") else FAILED)
         return 0 if not states else WRONG_CODE if states == {WRONG} else FAILED_CODE
 
     @property
@@ -212,12 +212,12 @@ class CohortResult(Result):
                 **{name: one.trial.factors.get(name, "") for name in names},
                 "state": state,
                 "folder": f"{RESULTS}/{one.address}" if one.outcome.state == DONE else "",
-                **doubt_columns(told.get("fit", ""), told.get("warnings", ())),
+                **doubt_columns(report.get("fit", ""), report.get("warnings", ())),
                 "words": words,
             }
             for one in self.every
             for state, words in [one.noted(self.before)]
-            for told in [self.store.told(one.address) if one.outcome.state == DONE else {}]
+            for report in [self.store.report(one.address) if one.outcome.state == DONE else {}]
         ]
         return pd.DataFrame(rows)
 

@@ -21,12 +21,12 @@ from geocontact.study.address import LENGTH, Digests
 
 LOCK = ".lock"
 TAKEN = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
-LARGEST_TOLD = 200
+LONGEST_OWNER = 200
 ADDRESS = re.compile(rf"[0-9a-f]{{{LENGTH}}}")
 BEHIND = 1 << 20
 """Byte that is locked on Windows, where others cannot read what is locked: behind what is written."""
 RESULTS = "results"
-TOLD = "trial.json"
+REPORT = "trial.json"
 """File in the folder of a trial that says what is in it."""
 WORK = ".work"
 """Sub-folder of what is being written."""
@@ -65,8 +65,8 @@ def _locked_file(file: Path) -> int:
         descriptor = os.open(file, os.O_RDWR | os.O_CREAT, 0o666)
         try:
             if not _lock(descriptor):
-                told = os.read(descriptor, LARGEST_TOLD).decode(errors="replace").strip()
-                what = f"another study writes here ({told or 'another process'})"
+                owner = os.read(descriptor, LONGEST_OWNER).decode(errors="replace").strip()
+                what = f"another study writes here ({owner or 'another process'})"
                 raise InputError(file.parent, "", what, "wait until it has ended, or choose another `out`")
             with suppress(FileNotFoundError):
                 if os.path.samestat(os.fstat(descriptor), file.stat()):
@@ -129,12 +129,12 @@ class Store:
         """Folder of the results of that address, whether they are there or not."""
         return self.folder / address
 
-    def told(self, address: str) -> dict[str, Any]:
+    def report(self, address: str) -> dict[str, Any]:
         """What a trial says of itself: its tables, sentences and reservations.
 
         InputError where it is none, or a table's name leads out of the trial's folder: results may come from others.
         """
-        file = self.place(address) / TOLD
+        file = self.place(address) / REPORT
         try:
             found: dict[str, Any] = read_json(file)
             whole = all(isinstance(each, str) for each in [*found["tables"], *found.get("warnings", ())])
@@ -158,10 +158,10 @@ class Store:
         that these results were made of.
         """
         place = self.place(address)
-        if not (place / TOLD).is_file():
+        if not (place / REPORT).is_file():
             return False
         try:
-            before = read_json(place / TOLD).get("from", [])
+            before = read_json(place / REPORT).get("from", [])
             now = dict(zip(before, taken, strict=True))
             run = read_json(place / RUN)
             named = {
@@ -179,7 +179,7 @@ class Store:
         """Whether results are there as they were written, whatever has become of what they were made of."""
         place = self.place(address)
         try:
-            return (place / TOLD).is_file() and _as_written(place, read_json(place / RUN), Digests())
+            return (place / REPORT).is_file() and _as_written(place, read_json(place / RUN), Digests())
         except UNREADABLE:
             return False
 
@@ -195,7 +195,7 @@ class Store:
         found = []
         for each in self.addresses():
             with suppress(*UNREADABLE):
-                if read_json(self.place(each) / TOLD).get("step") == name:
+                if read_json(self.place(each) / REPORT).get("step") == name:
                     found.append(each)
             if len(found) == most:
                 break
@@ -205,7 +205,7 @@ class Store:
         """Addresses that have results, in order of the alphabet."""
         there = self.folder.iterdir() if self.folder.is_dir() else ()
         return sorted(
-            p.name for p in there if ADDRESS.fullmatch(p.name) and not p.is_symlink() and (p / TOLD).is_file()
+            p.name for p in there if ADDRESS.fullmatch(p.name) and not p.is_symlink() and (p / REPORT).is_file()
         )
 
     def logs(self) -> list[str]:
@@ -222,7 +222,7 @@ class Store:
         try:
             os.rename(draft, place)
         except OSError:
-            if not (place / TOLD).is_file():
+            if not (place / REPORT).is_file():
                 raise
             shutil.rmtree(draft, ignore_errors=True)
 
@@ -242,7 +242,7 @@ class Store:
     def forget(self, address: str) -> None:
         """Remove results that are out of date; what says that they are whole goes first."""
         self.log(address).unlink(missing_ok=True)
-        (self.place(address) / TOLD).unlink(missing_ok=True)
+        (self.place(address) / REPORT).unlink(missing_ok=True)
         shutil.rmtree(self.place(address), ignore_errors=True)
 
     @contextmanager

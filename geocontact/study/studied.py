@@ -123,7 +123,7 @@ def looked_at(
     say_how_many(plan.evaluations)
     _clean(planned, plan, store, o)
     entries = [
-        (one.called(step=bool(earlier)), store.told(one.address))
+        (one.called(step=bool(earlier)), store.report(one.address))
         for one in (*earlier, *trials)
         if one.outcome.state == DONE
     ]

@@ -25,7 +25,7 @@ from geocontact.analyses.frame.table_forms import TableForms
 from geocontact.data.errors import InputError
 from geocontact.study.address import ONE_THREAD, options_of
 from geocontact.study.limits import NO_LIMITS, TrialLimits, kept_within
-from geocontact.study.store import MOST_ENDED, TOLD, WORK, Store
+from geocontact.study.store import MOST_ENDED, REPORT, WORK, Store
 
 DONE, WRONG, FAILED, SET_ASIDE, STOPPED = "done", "input error", "failed", "set aside", "stopped"
 """What becomes of a trial; STOPPED concerns all: nothing can be written, or the worker has other sources."""
@@ -146,7 +146,7 @@ def _evaluate(task: TrialTask, out: Path) -> None:
     options.refuse_missing_files()
     call = Call(dict(task.options), Listener(), forms=TableForms(parquet=True), without=task.without)
     result, _ = execute(job, options, out, call)
-    told = {
+    report = {
         "analysis": task.analysis,
         "step": task.step,
         "from": list(task.taken),
@@ -157,6 +157,6 @@ def _evaluate(task: TrialTask, out: Path) -> None:
         "fit": result.fit_outcome or "",
         "inputs contradict": bool(result.record.causes),
     }
-    draft = out / f"{TOLD}.part"
-    draft.write_text(json.dumps(told, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    os.replace(draft, out / TOLD)
+    draft = out / f"{REPORT}.part"
+    draft.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    os.replace(draft, out / REPORT)

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from geocontact.below_knee_prosthesis.evaluation import AS_STUDY, PlateStance, judged, reasons, stance_errors
+from geocontact.below_knee_prosthesis.evaluation import AS_STUDY, PlateStance, judged, stance_errors
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
+from geocontact.below_knee_prosthesis.outliers import reasons
 from tests.below_knee_prosthesis.stances import a_stance
 
 WEIGHT = 77.3 * GRAVITY

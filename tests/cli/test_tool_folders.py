@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -441,6 +442,22 @@ def test_loads_that_leave_it_open_which_is_meant_are_refused(leg: Path, tmp_path
     put(leg, root, ("grf.mot", "walk_grf.mot"), ("grf.mot", "walk_forces.mot"))
     with pytest.raises(InputError, match=r"`plates` \S*walk_forces.mot or \S*walk_grf.mot `plate`"):
         folder_inputs("id", root)
+
+
+def test_two_motions_of_one_trial_leave_it_open_which_is_meant(leg: Path, tmp_path: Path) -> None:
+    """The longer name won without a word; plates under the trial's own name leave no doubt (below)."""
+    root = put(leg, tmp_path / "lab", ("leg.osim", "leg.osim"), ("walk.mot", "walk.mot"), ("walk.mot", "walk_ik.mot"))
+    both = r"walk_ik.mot and walk.mot are of one trial; name the file that is meant, or leave one of them there"
+    for command, wanted in (("id", ()), ("markers", ()), ("sit-to-stand coordinates", ("walk",))):
+        with pytest.raises(InputError, match=both):
+            folder_inputs(command, root, wanted)
+    put(leg, root, ("walk.mot", "run.mot"))
+    (run,) = folder_inputs("id", root)
+    assert run.recording.name == "run.mot" and re.search(f"trial walk is left out: .*{both}", run.warnings[0])
+    put(leg, root, ("walk.trc", "walk.trc"))
+    assert folder_inputs("ik", root, ("walk",)), "which begins with markers"
+    named = call("markers", root / "walk.mot", "--model", root / "leg.osim", "--out", tmp_path / "out")
+    assert done(named), "as the refusal says"
 
 
 @pytest.mark.parametrize("name", ["walk_Grf", "grf_walk", "External_Loads", "Walk_ExternalLoads", "forces_grf"])

@@ -324,6 +324,33 @@ def test_open_and_doubled_surfaces_have_no_sides():
         assert found.distance == pytest.approx(libigl_distance(points, vertices, spoilt), abs=1e-12)
 
 
+AGAIN = {
+    "none": lambda f: f,
+    "one": lambda f: np.vstack([f, f[40:41]]),
+    "one that begins elsewhere": lambda f: np.vstack([f, np.roll(f[40:41], 1, axis=1)]),
+    "some turned over": lambda f: np.vstack([f, f[40:60, ::-1]]),
+    "all": lambda f: np.vstack([f, f]),
+    "one, and one without area": lambda f: np.vstack([f, f[40:41], [[0, 0, 1]]]),
+}
+
+
+@pytest.mark.parametrize("inwards", [False, True], ids=["outwards", "inwards"])
+@pytest.mark.parametrize("again", AGAIN)
+def test_doubled_faces_change_nothing_where_a_body_is_assumed_closed(again, inwards):
+    """Distances, sides, normals and area of the clean body; a vertex of no face far away is no part of it either."""
+    vertices, faces = body("sphere")
+    above = 3.0 * vertices[faces[40:60]].mean(axis=1)
+    points = np.vstack([around(vertices), close_to(vertices, faces[40:60], 1e-3, 500), above])
+    clean = Surface(vertices, faces)
+    spoilt = AGAIN[again](faces[:, ::-1] if inwards else faces)
+    surface = Surface(np.vstack([vertices, [[1.0, 2.0, 3.0]]]), spoilt, assume_closed=True)
+    expected, found = clean.proximity(points), surface.proximity(points)
+    assert found.distance == pytest.approx(expected.distance, abs=1e-12)
+    assert surface.inside_out == Surface(vertices, spoilt).inside_out == inwards, "said of the open one as well"
+    assert surface.face_normal[: len(faces)] == pytest.approx(clean.face_normal, abs=1e-12)
+    assert surface.face_area[~surface.repeated].sum() == pytest.approx(clean.face_area.sum(), rel=1e-12)
+
+
 def test_assumed_closed_box_without_lid_has_sides_where_they_are_clear():
     """Winding number of five sixths of a cube; beside the missing lid it is near one half."""
     vertices, faces = cube((0, 0, 0), 1.0)

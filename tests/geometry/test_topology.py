@@ -60,6 +60,23 @@ def test_what_keeps_a_cube_from_being_closed(change, open_edges, irregular, doub
     assert re.search(words, found.why_open), found.why_open
 
 
+def test_doubled_faces_alone_are_no_hole():
+    """Left out, the cube is closed; not one with a hole, nor where the first of two is the one turned over."""
+    doubled = {name: spoilt(change).closed_once for name, change in DOUBLED.items()}
+    assert doubled == {"again": True, "turned": True, "all": True, "turned first": False, "and a hole": False}
+    assert spoilt(lambda f: f).closed_once
+    assert not spoilt(lambda f: f[1:]).closed_once
+
+
+DOUBLED = {
+    "again": lambda f: np.vstack([f, f[:1]]),
+    "turned": lambda f: np.vstack([f, f[:1, ::-1]]),
+    "all": lambda f: np.vstack([f, f]),
+    "turned first": lambda f: np.vstack([f[:1, ::-1], f]),
+    "and a hole": lambda f: np.vstack([f[1:], f[1:2]]),
+}
+
+
 def test_collapsed_faces_do_not_open_a_body():
     """A face with two equal corners has no third edge to share; by index or by place alike."""
     vertices, faces = cube((0, 0, 0), 1.0)

@@ -19,9 +19,9 @@ from geocontact.shoulder_exoskeleton.arms_from_markers import (
     arm_motions,
     filled_markers,
     longest_gap,
-    smoothed_arms,
 )
 from geocontact.shoulder_exoskeleton.device_frame import Attachment, virtual_reference
+from geocontact.shoulder_exoskeleton.smoothed_arms import smoothed_arms
 from geocontact.shoulder_exoskeleton.synthetic import OverheadTrial, condition, participant, synthetic_trial, task
 
 SETTINGS = MarkerSettings(upright=(0.0, 0.25))

@@ -47,7 +47,7 @@ def moment(run: SimulatedSupport) -> np.ndarray:
     motion = run.arm.simulation.motion
     reach = motion.interface - motion.shoulder
     axis = np.stack([reach[:, 1], -reach[:, 0], np.zeros(len(reach))], axis=1)  # (0, 0, -1) × reach
-    turned = np.cross(reach, run.arm.simulation.told["force"])
+    turned = np.cross(reach, run.arm.simulation.outputs["force"])
     return np.asarray((axis * turned).sum(axis=1) / np.hypot(reach[:, 0], reach[:, 1]))
 
 

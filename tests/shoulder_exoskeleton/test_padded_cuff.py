@@ -152,7 +152,7 @@ def test_energy_of_a_padded_cuff_is_accounted_for() -> None:
     found = simulate_arm(
         lifted(seconds=4.0, step=2e-3), lucy(), Wearer(), 1.0, tolerance=1e-6, machine_code=False, cuff="surface"
     )
-    told = found.told
+    told = found.outputs
     balance = (told["power_in"] - told["power_lost"])[:, 0]
     came = np.concatenate([[0.0], np.cumsum(1e-3 * (balance[1:] + balance[:-1]))])
     change = told["energy"][:, 0] - told["energy"][0, 0]

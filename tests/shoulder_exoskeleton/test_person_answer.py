@@ -112,7 +112,7 @@ def test_an_arm_that_keeps_its_torque_is_a_pendulum_under_torque_and_cuff() -> N
     reach = sum(LENGTHS.values())
     course = CubicSpline(s.motion.time, s.motion.elevation)
     arm = found.simulation.motion.interface - found.simulation.motion.shoulder
-    moment = CubicSpline(time, -np.cross(arm, found.simulation.told["force"])[:, 0])
+    moment = CubicSpline(time, -np.cross(arm, found.simulation.outputs["force"])[:, 0])
 
     def down(angle: float) -> float:
         return (first * 9.81 + 5.0 * reach) * np.sin(angle)
@@ -132,8 +132,8 @@ def test_a_left_arm_that_keeps_its_torque_is_the_mirror_image() -> None:
     right, left = kept()[2], kept("left")[2]
     count = min(len(right.departure), len(left.departure))
     np.testing.assert_allclose(left.departure[:count], right.departure[:count], atol=1e-4)
-    mirrored = left.simulation.told["force"][:count] * [-1.0, 1.0, 1.0]
-    np.testing.assert_allclose(mirrored, right.simulation.told["force"][:count], atol=0.02)
+    mirrored = left.simulation.outputs["force"][:count] * [-1.0, 1.0, 1.0]
+    np.testing.assert_allclose(mirrored, right.simulation.outputs["force"][:count], atol=0.02)
 
 
 def test_more_support_takes_the_arm_farther() -> None:

@@ -30,7 +30,7 @@ def test_error_of_the_usual_tolerance(level: float) -> None:
     """Below 0.05 degrees and 0.5 N beside a tolerance of 1e-10, at every frame."""
     usual, tight = (simulate_arm(lifted(), LUCY, WEARER, level, tolerance=t) for t in (TOLERANCE, 1e-10))
     assert np.degrees(np.abs(usual.angles - tight.angles)).max() < 0.05
-    assert np.linalg.norm(usual.told["force"] - tight.told["force"], axis=1).max() < 0.5
+    assert np.linalg.norm(usual.outputs["force"] - tight.outputs["force"], axis=1).max() < 0.5
     assert np.ptp(tight.elevation) > 1.0
 
 
@@ -71,7 +71,7 @@ def test_steps_are_of_third_order() -> None:
 )
 def test_energy_is_what_goes_in_less_what_friction_and_damping_take(level: float, added: dict[str, float]) -> None:
     found = simulate_arm(lifted(step=1e-3), LUCY.having(**added), WEARER, level, tolerance=1e-8)
-    time, told = found.motion.time, found.told
+    time, told = found.motion.time, found.outputs
     change = told["energy"][:, 0] - told["energy"][0, 0]
     came = np.concatenate([[0.0], np.cumsum(0.5e-3 * _pairs(told["power_in"][:, 0] - told["power_lost"][:, 0]))])
     assert np.abs(change - came).max() < 0.01 * np.abs(change).max()
@@ -86,12 +86,12 @@ def _pairs(values: np.ndarray) -> np.ndarray:
 def test_a_left_arm_is_the_mirror_image(lift: ArmSimulation) -> None:
     left = simulate_arm(lifted(side="left"), LUCY, WEARER, 1.0)
     np.testing.assert_array_equal(left.angles, lift.angles)
-    np.testing.assert_array_equal(left.told["force"], lift.told["force"] * [-1.0, 1.0, 1.0])
-    np.testing.assert_array_equal(left.told["in_cuff"], lift.told["in_cuff"])
+    np.testing.assert_array_equal(left.outputs["force"], lift.outputs["force"] * [-1.0, 1.0, 1.0])
+    np.testing.assert_array_equal(left.outputs["in_cuff"], lift.outputs["in_cuff"])
 
 
 def test_both_parts_make_the_force_and_the_cuffs_axes_keep_its_size(lift: ArmSimulation) -> None:
-    told = lift.told
+    told = lift.outputs
     np.testing.assert_allclose(told["normal"] + told["friction"], told["in_cuff"], atol=1e-12)
     np.testing.assert_allclose(
         np.linalg.norm(told["force"], axis=1), np.linalg.norm(told["in_cuff"], axis=1), atol=1e-9
@@ -131,7 +131,7 @@ def test_an_arm_that_is_pressed_into_the_cuff_pushes_the_device_down() -> None:
     own, with_it = (simulate_arm(motion, HELD, WEARER, 0.5, pressed=each) for each in (None, pressed))
     held = np.searchsorted(motion.time, 3.4)
     sunk = np.degrees(own.elevation - with_it.elevation)
-    reach = LUCY["armrest_share"] * WEARER.upper_arm + with_it.told["place"][held, 0]
+    reach = LUCY["armrest_share"] * WEARER.upper_arm + with_it.outputs["place"][held, 0]
     assert sunk[held] == pytest.approx(np.degrees(1e-2 / reach), rel=0.1)
     assert abs(sunk[motion.time < 2.5]).max() < 1e-6
     assert with_it.supporting[held] == pytest.approx(own.supporting[held], abs=1.0)

@@ -59,11 +59,11 @@ def test_what_reaches_the_arm_is_less_than_the_cylinder_gives(arms: list[ArmTria
     given, none = (simulated_support(arm, DEVICE, factors(arm, x, x, x)) for x in (0.4, 0.0))
     torque = raising_torque(given.arm.simulation)
     screwing = given.arm.phase == PHASES.index("screw-in")
-    cylinder = given.arm.simulation.told["support"][:, 0]
+    cylinder = given.arm.simulation.outputs["support"][:, 0]
     assert 0.4 < torque[screwing].mean() / cylinder[screwing].mean() < 1.0
     assert raising_torque(none.arm.simulation).mean() < 0.0 < torque.mean()
     assert none.outcome.reduction < 0.0 < given.outcome.reduction < 1.0
-    assert given.outcome.force == pytest.approx(np.linalg.norm(given.arm.simulation.told["force"], axis=1).max())
+    assert given.outcome.force == pytest.approx(np.linalg.norm(given.arm.simulation.outputs["force"], axis=1).max())
 
 
 def test_a_light_arm_is_pushed_up(arms: list[ArmTrial]) -> None:

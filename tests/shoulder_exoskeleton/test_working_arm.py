@@ -49,6 +49,6 @@ def test_means_of_the_screw_in_are_those_of_its_frames(arm: SimulatedArm) -> Non
     found = screw_in(arm)
     assert found.exoskeleton == pytest.approx(np.mean(arm.simulation.angles[TOOL, 2]))
     assert found.shoulder == pytest.approx(2.0), "the arm is held at 2 rad"
-    assert found.force == pytest.approx(np.mean(arm.simulation.told["in_cuff"][TOOL, 2]))
+    assert found.force == pytest.approx(np.mean(arm.simulation.outputs["in_cuff"][TOOL, 2]))
     idle = SimulatedArm(arm.simulation, np.zeros(len(MOTION.time), int))
     assert np.isnan([screw_in(idle).exoskeleton, screw_in(idle).force]).all()

@@ -9,7 +9,7 @@ import pytest
 
 from geocontact.study.clean_up import ASKED, clear, not_asked_for, note_asked
 from geocontact.study.description import StudyFile, read_study_file
-from geocontact.study.store import TOLD, Store
+from geocontact.study.store import REPORT, Store
 from tests.cli.calls import Call, call
 from tests.study.chained import NUMBERS, chain
 
@@ -19,7 +19,7 @@ def cohort(file: Path, out: Path, scheduler: str, *more: str) -> Call:
 
 
 def results(out: Path) -> set[str]:
-    return {each.parent.name for each in out.glob(f"results/*/{TOLD}")}
+    return {each.parent.name for each in out.glob(f"results/*/{REPORT}")}
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def store(tmp_path: Path) -> Store:
     found = Store(tmp_path / "out" / "results")
     for k in range(4):
         found.place(f"{k}" * 32).mkdir(parents=True)
-        (found.place(f"{k}" * 32) / TOLD).write_text("{}", encoding="utf-8")
+        (found.place(f"{k}" * 32) / REPORT).write_text("{}", encoding="utf-8")
     for k in (4, 5):
         found.write_log(f"{k}" * 32, "Traceback")
     return found

@@ -11,13 +11,14 @@ from pathlib import Path
 import pytest
 
 from geocontact.analyses.frame import workers
+from geocontact.io.text.apart import run_apart
 
 ROOT = Path(__file__).resolve().parents[2]
 STRANGERS = (
     *("numpy", "json", "sitecustomize", "geocontact", "signal", "pickle", "struct", "socket", "tempfile"),
-    *("dask", "distributed", "pandas", "tomllib", "runpy"),
+    *("dask", "distributed", "pandas", "tomllib", "runpy", "planted"),
 )
-"""Modules that some process imports while it begins or works."""
+"""Modules that some process imports while it begins or works; the last is no other's name."""
 STARTED_BY = {
     "analyses/frame/workers.py": "processes of an analysis: test_workers_of_an_analysis",
     "study/workers.py": "processes of a study: test_workers_of_a_study",
@@ -103,6 +104,49 @@ def strangers(folder: Path) -> Path:
         text = f"open({str(hit)!r}, 'a').write('{name}\\n')\nraise ImportError('a stranger')\n"
         (home / f"{name}.py").write_text(text, encoding="utf-8")
     return hit
+
+
+STARTERS = {
+    "read apart": "from geocontact.io.text.apart import run_apart as run; run('planted', [], 99)",
+    "pictures": "from geocontact.view.surfaces.child import start; start('import planted').wait(99)",
+    "opensim": """from geocontact.io.opensim import muscle_paths as paths
+paths.require_opensim, paths.__name__ = lambda: None, "planted"
+try:
+    paths.muscle_paths(paths.Path("no.osim"), (), paths.np.zeros((1, 0)), ())
+except paths.InputError:
+    pass""",
+}
+"""Each begins a process that asks for a module of the current folder."""
+
+
+@pytest.mark.parametrize("name", STARTERS)
+def test_the_current_folder_on_the_path_is_not_passed_on(tmp_path: Path, name: str) -> None:
+    """`gap` adds it for a model of the user's own; a process that began with it could run its sitecustomize.py."""
+    hit = strangers(tmp_path)
+    script = tmp_path / "start.py"
+    script.write_text(f"import os, sys\nsys.path.append(os.getcwd())\n{STARTERS[name]}\n", encoding="utf-8")
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONSAFEPATH")}
+    environment["PYTHONPATH"] = str(ROOT)
+    words = [sys.executable, str(script)]
+    home = tmp_path / "home"
+    ran = subprocess.run(words, cwd=home, env=environment, capture_output=True, text=True, check=False, timeout=120)
+    assert not ran.returncode, ran.stderr
+    assert not hit.exists(), hit.read_text(encoding="utf-8")
+
+
+def test_other_folders_are_searched_as_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the same order, before others too: libraries that a program keeps beside itself are found."""
+    for folder in ("first", "second", "here"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "found_module.py").write_text(f"import sys; print({folder!r}, *sys.argv[1:])")
+    monkeypatch.chdir(tmp_path / "here")
+    own = [str(tmp_path / "here"), "", str(tmp_path / "first"), "../second"]
+    monkeypatch.setattr(sys, "path", [*own, *sys.path])
+    assert run_apart("found_module", ["a", "b c"], 60.0).stdout.decode().strip() == "first a b c"
+    (tmp_path / "first" / "found_module.py").unlink()
+    assert run_apart("found_module", [], 60.0).stdout.decode().strip() == "second"
+    (tmp_path / "second" / "found_module.py").unlink()
+    assert b"No module named found_module" in run_apart("found_module", [], 60.0).stderr
 
 
 PIECES = """import os, sys

@@ -13,29 +13,29 @@ import pytest
 from geocontact.analyses.frame.folder import RUN
 from geocontact.data.errors import InputError
 from geocontact.study.address import Digests
-from geocontact.study.store import TOLD, Store
+from geocontact.study.store import REPORT, Store
 
 
 @pytest.mark.parametrize("name", ["../../escaped", "/tmp/escaped", "a/../../b"])
 def test_a_table_elsewhere_is_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "a").mkdir()
-    (tmp_path / "a" / TOLD).write_text(json.dumps({"tables": ["area", name], "warnings": []}))
+    (tmp_path / "a" / REPORT).write_text(json.dumps({"tables": ["area", name], "warnings": []}))
     with pytest.raises(InputError, match="is not in its folder; remove that folder"):
-        Store(tmp_path).told("a")
+        Store(tmp_path).report("a")
 
 
 def test_its_own_tables_are_read(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
-    (tmp_path / "a" / TOLD).write_text(json.dumps({"tables": ["area", "trials/area"]}))
-    assert Store(tmp_path).told("a")["tables"] == ["area", "trials/area"]
+    (tmp_path / "a" / REPORT).write_text(json.dumps({"tables": ["area", "trials/area"]}))
+    assert Store(tmp_path).report("a")["tables"] == ["area", "trials/area"]
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
 def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
-    os.mkfifo(tmp_path / "a" / TOLD)
+    os.mkfifo(tmp_path / "a" / REPORT)
     with pytest.raises(InputError, match="is a named pipe"):
-        Store(tmp_path).told("a")
+        Store(tmp_path).report("a")
 
 
 @pytest.mark.parametrize(
@@ -53,15 +53,15 @@ def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
 )
 def test_what_describes_no_trial_is_refused_in_a_line(tmp_path: Path, content: str) -> None:
     (tmp_path / "a").mkdir()
-    (tmp_path / "a" / TOLD).write_text(content)
+    (tmp_path / "a" / REPORT).write_text(content)
     with pytest.raises(InputError, match="does not say what a trial has; remove that folder"):
-        Store(tmp_path).told("a")
+        Store(tmp_path).report("a")
 
 
 def whole(folder: Path, inputs: object) -> Store:
     """Results of a stranger that say what they were made of."""
     (folder / "a").mkdir()
-    (folder / "a" / TOLD).write_text('{"tables": [], "warnings": []}')
+    (folder / "a" / REPORT).write_text('{"tables": [], "warnings": []}')
     (folder / "a" / RUN).write_text(json.dumps({"inputs": inputs}))
     return Store(folder)
 

@@ -195,7 +195,7 @@ def test_what_a_fixation_does_of_its_own_is_told() -> None:
         data = binned(trials({**PAPER, "z": z}, clean, count=2), np.radians(2.0))
         apart = separability(estimated(problem_of(data, parameters({"l": PAPER["l"], "z": z}), {}), 2))
         assert least <= apart.from_all <= apart.from_cuff < most
-        assert apart.told == (z != 0.0)
+        assert apart.separable == (z != 0.0)
 
 
 def test_the_compliance_is_found_where_the_cuffs_stiffness_is_known() -> None:

@@ -12,8 +12,8 @@ from jaxtyping import Bool
 from geocontact.analyses.area.bodies import Bodies
 from geocontact.analyses.area.options import FLAT, AreaOptions
 from geocontact.analyses.area.wear import wear_table, worn_over
-from geocontact.analyses.frame.bodies import confined_modulus, measured_thickness
 from geocontact.analyses.frame.collector import listener, note, reserve, say
+from geocontact.analyses.frame.layers import confined_modulus, measured_thickness
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import MM2, AreaEvolution
 from geocontact.data.motion import Motion

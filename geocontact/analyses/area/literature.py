@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.area.options import LITERATURE, AreaOptions
+from geocontact.analyses.area.options import AreaOptions
+from geocontact.analyses.area.refused import LITERATURE
 from geocontact.analyses.frame.published import beside_published_areas
 from geocontact.data.errors import InputError
 from geocontact.data.evolution import AreaEvolution

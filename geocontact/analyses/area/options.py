@@ -8,6 +8,7 @@ from glob import has_magic
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
+from geocontact.analyses.area.refused import LITERATURE, refuse_comparison, refuse_errors
 from geocontact.analyses.frame.marks import (
     AngleUnit,
     Excludes,
@@ -35,7 +36,6 @@ from geocontact.analyses.frame.shared_options import (
     Sweep,
     Thickness,
     medial_side,
-    refuse_pose_sd,
     refuse_programs,
     refuse_thresholds,
 )
@@ -57,8 +57,6 @@ from geocontact.data.plausible import (
 )
 
 FLAT = "flat"
-LITERATURE = Path("literature")
-"""In place of a table: published areas of knees."""
 
 READS_NO_FILE = Excludes("sweep", "has no effect with `sweep`, which reads no motion file")
 OF_LAYER = Requires("pressure")
@@ -363,39 +361,17 @@ class AreaOptions(Options):
             raise InputError("", "`moving_body`", what, "swap the two meshes, or give `osim` and `joint`")
         if self.workers is not None and self.workers < 1:
             raise InputError("", "`workers`", f"{self.workers} is less than one thread", "give 1 or more")
-        self._refuse_sides()
-        self._refuse_comparison()
-        refuse_thresholds(self.threshold)
-        self._refuse_errors()
-        refuse_programs(self.export, self.osim)
-        if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
-            raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
-
-    def _refuse_sides(self) -> None:
         if self.split is not None:
             medial_side(self.split, self.side, self.medial)
         if self.medial is not None and self.side is not None and self.convention is None:
             raise InputError("", "`side`", "has no effect with `medial`, which says what is medial", "give one")
-
-    def _refuse_comparison(self) -> None:
-        if self.compare == LITERATURE and self.tolerance is not None:
-            what = "has no effect with `compare` literature: areas of other implants accept or refuse nothing"
-            raise InputError("", "`tolerance`", what, "leave it out")
-        if self.flexion is not None and self.compare != LITERATURE:
-            raise InputError("", "`flexion`", "has no effect on your own table", "give `compare` literature")
-
-    def _refuse_errors(self) -> None:
-        if self.pose_sd is None and self.markers is None:
-            return
-        if self.rule not in ("refined", "clip"):
-            raise InputError("", "`rule`", f"{self.rule} changes in jumps with the pose", "leave it out")
-        if min(self.threshold) <= 0.0:
-            raise InputError("", "`threshold`", "0 has no error of poses", "give a threshold above 0")
-        if self.draws is not None and not 20 <= self.draws <= 1_000_000:
-            raise InputError("", "`draws`", f"{self.draws} is not between 20 and 1000000", "give for example 400")
-        refuse_pose_sd(self.pose_sd)
-        if self.seed is not None and self.seed < 0:
-            raise InputError("", "`seed`", f"{self.seed} is negative", "give 0 or more")
+        refuse_comparison(self.compare, self.tolerance, self.flexion)
+        refuse_thresholds(self.threshold)
+        if self.pose_sd is not None or self.markers is not None:
+            refuse_errors(self.rule, self.threshold, self.draws, self.seed, self.pose_sd)
+        refuse_programs(self.export, self.osim)
+        if self.adduction is not None and self.adduction[0] not in ("x", "y", "z"):
+            raise InputError("", "`adduction`", f"{self.adduction[0]!r} is not an axis", "turn about x, y or z")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -159,18 +159,11 @@ def _recording(command: str, folder: ToolFolder, trial: FolderTrial) -> Path:
     file = trial.markers if FIRST[command] == "markers" else trial.coordinates
     if file is None:
         raise InputError(folder.root, "", f"trial '{trial.name}' has no {FIRST[command]}", REMEDIES[FIRST[command]])
-    if FIRST[command] == "markers" and trial.rival is not None:
-        raise InputError(folder.root, "", _rivals(trial), RIVALS)
+    rival = trial.rival if FIRST[command] == "markers" else trial.rival_motion
+    if rival is not None and (FIRST[command] == "markers" or not may_hold_loads(rival)):
+        remedy = "name the file that is meant, or leave one of them there"
+        raise InputError(folder.root, "", f"{file.name} and {rival.name} are of one trial", remedy)
     return file
-
-
-RIVALS = "name the file that is meant, or leave one of them there"
-
-
-def _rivals(trial: FolderTrial) -> str:
-    """Words for a trial with two files of markers."""
-    names = [file.name for file in (trial.markers, trial.rival) if file is not None]
-    return f"{' and '.join(names)} are of one trial"
 
 
 REMEDIES = {"coordinates": "compute them first: geocontact ik", "markers": "is the folder complete?"}
@@ -191,7 +184,7 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
     if not there:
         raise InputError(folder.root, "", f"no trial has {first}", REMEDIES[first])
     found = ChosenTrials(there, left_out=[f"{t.name} (no {first})" for t in folder.trials if t not in there])
-    usable, still = _readable(command, folder, found, c3d_unit) if first == "markers" else (there, [])
+    usable, still = _readable(command, folder, found, c3d_unit)
     standing = [t for t in usable if t.static]
     if folder.kind == TRIALS and first == "markers":
         standing = _standing(usable, still, found.notes)
@@ -210,7 +203,7 @@ def _chosen(command: str, folder: ToolFolder, wanted: Sequence[str], c3d_unit: s
 def _readable(
     command: str, folder: ToolFolder, found: ChosenTrials, c3d_unit: str | None
 ) -> tuple[list[FolderTrial], list[FolderTrial]]:
-    """Trials of one file of markers that can be read, and which of a laboratory's stand still.
+    """Trials of one file that the command begins with, where markers can be read, and a laboratory's that stand still.
 
     Others are left out with a note; InputError where none can be read.
     """
@@ -218,10 +211,9 @@ def _readable(
     still = []
     for trial in found.trials:
         try:
-            if trial.rival is not None:
-                raise InputError(folder.root, "", _rivals(trial), RIVALS)
-            if folder.kind == TRIALS and trial.markers is not None:
-                still += [trial] if _stands_still(_read(command, trial.markers, c3d_unit)) else []
+            file = _recording(command, folder, trial)
+            if folder.kind == TRIALS and FIRST[command] == "markers":
+                still += [trial] if _stands_still(_read(command, file, c3d_unit)) else []
         except InputError as error:
             refusals[trial.name] = error
     if len(refusals) == len(found.trials):

@@ -23,7 +23,7 @@ from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
 SHORTEST, LONGEST = 0.1, 1.0
-"""Lengths of a person [m] that are believed."""
+"""Lengths of a person [m] that are plausible."""
 UNITS = {name: quantity.unit for name, quantity in QUANTITIES.items()}
 HINGE_UNITS = {name: quantity.unit for name, quantity in HINGES.items()}
 CONTROLLER_UNITS = {name: quantity.unit for name, quantity in CONTROLLED.items()}

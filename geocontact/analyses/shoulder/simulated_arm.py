@@ -43,7 +43,7 @@ def warn_of(found: ArmSimulation) -> None:
     lost = Doubt(f"{which}: the sphere is out of the cuff for {share_words(share)} of the time", True)
     judge(GoodnessOfFit((lost,) if share >= MUCH else (), (f"{which} in its cuff",)))
     if out.any():
-        far = np.abs(found.told["place"][:, 0])
+        far = np.abs(found.outputs["place"][:, 0])
         reserve(
             f"{which}: the sphere is out of the cuff for {share_words(float(out.mean()))} of the time, first at "
             f"{time[out][0]:.2f} s, up to {1e3 * far.max():.0f} mm from its middle"

@@ -210,7 +210,7 @@ def channels_of(
     if feet is not None and files.plates is not None:
         with named_plate(files.plates, feet):
             force, centre = under_the_feet(wrench_at(feet, time), time, q[:, 0])
-    torque, strap, shear, elsewhere = None, None, None, {}
+    torque = None
     if "torque" in tracks:
         torque = joint_torques(
             files, subject.device, whole.time, whole.values[:, len(COORDINATES) :], used, noise.torque
@@ -218,36 +218,49 @@ def channels_of(
     else:
         _doubt_unused(files)
         doubt_friction(files.name, subject.device, "torque is not among tracks")
-    if "strap" in tracks:
-        strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
-        shear = site_shear(files.strap, time)
-        confront_shear(files, shear, strap, time)
-        roles = {site: f"{files.name} strap_{site}" for site in sites}
-        elsewhere = {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
+    strap, shear, elsewhere = _of_straps(files, time, sites) if "strap" in tracks else (None, None, {})
     sat_on = None
     if files.sitting and chair is not None and files.plates is not None:
         with named_plate(files.plates, chair):
             sat_on = chair_load(wrench_at(chair, time), time)
-    plates_of = tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None)
     upright = [k for k in (-1, 0) if feet is not None and np.abs(q[k, ANGLES]).max() < UPRIGHT]
-    recorded = [("strap", "N", strap)] if strap is not None else []
-    if torque is not None:
-        recorded += [(f"torque of {name}", "N m", own) for name, own in zip(HINGES, torque.T, strict=False)]
-    check_trial(
-        TrialInputs(
-            plates=plates_of,
-            mass=chain.mass,
-            mass_option=f"mass in {study}",
-            stands_at=float(time[upright[0]]) if upright else None,
-            turn=turn,
-            moved=whole,
-            channels=tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in recorded),
-        )
+    inputs = TrialInputs(
+        plates=tuple(FootPlate(each, str(files.plates)) for each in (feet, chair) if each is not None),
+        mass=chain.mass,
+        mass_option=f"mass in {study}",
+        stands_at=float(time[upright[0]]) if upright else None,
+        turn=turn,
+        moved=whole,
     )
+    check_trial(replace(inputs, channels=_recorded(study, time, torque, strap)))
     trial = StandingTrial(time - time[0], q, u, force, centre, files.name, torque, strap, sat_on, elsewhere, shear)
     if files.torques is not None:
         doubt_torques(files.name, files.torques, chain, trial)
     return trial
+
+
+def _of_straps(
+    files: StandingTrialFiles, time: Float[np.ndarray, " t"], sites: tuple[str, ...]
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, " t"] | None, dict[str, Float[np.ndarray, " t"]]]:
+    """Force of the thigh's strap, its shear, and forces of straps elsewhere [N]."""
+    strap = site_force(files.strap, f"{files.name} strap", "thigh", time)
+    shear = site_shear(files.strap, time)
+    confront_shear(files, shear, strap, time)
+    roles = {site: f"{files.name} strap_{site}" for site in sites}
+    return strap, shear, {s: site_force(files.elsewhere.get(s, ()), role, s, time) for s, role in roles.items()}
+
+
+def _recorded(
+    study: Path,
+    time: Float[np.ndarray, " t"],
+    torque: Float[np.ndarray, "t h"] | None,
+    strap: Float[np.ndarray, " t"] | None,
+) -> tuple[RecordedChannel, ...]:
+    """Force of the strap [N] and torques of hinges [N m], as far as they are tracked."""
+    found = [("strap", "N", strap)] if strap is not None else []
+    if torque is not None:
+        found += [(f"torque of {name}", "N m", own) for name, own in zip(HINGES, torque.T, strict=False)]
+    return tuple(RecordedChannel(name, unit, time, own, str(study)) for name, unit, own in found)
 
 
 def _stance(

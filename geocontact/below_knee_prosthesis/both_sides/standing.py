@@ -160,7 +160,7 @@ def _poses(seen: MarkerTrajectories, names: tuple[str, ...], standing: Mapping[s
 
 
 FEET, ANKLES, HEIGHTS = (0.15, 0.40), (0.04, 0.14), (0.03, 0.2)
-"""m; lengths of a foot, distances of malleoli and heights of the ankle that are believed."""
+"""m; lengths of a foot, distances of malleoli and heights of the ankle that are plausible."""
 NO_JOINTS = FunctionalJoints()
 
 
@@ -266,12 +266,12 @@ def _intact(
         markers,
     )
     require_lengths(seen, leg.thigh, leg.shank, 2.0 * leg.knee_radius)
-    for name, value, believed in (
+    for name, value, plausible in (
         ("intact foot", leg.length, FEET),
         ("intact ankle", 2.0 * leg.ankle_radius, ANKLES),
         ("height of the intact ankle", leg.sole, HEIGHTS),
     ):
-        require_length(seen, name, value, believed)
+        require_length(seen, name, value, plausible)
     if not leg.heel[0] < leg.toe_joint[0] < leg.hallux[0]:
         what = f"{INTACT_FOOT[0]}, {INTACT_FOOT[1]} and {INTACT_TOES[0]} do not follow each other along the foot"
         raise InputError(seen.source, "`static`", what, "are the markers named right?")

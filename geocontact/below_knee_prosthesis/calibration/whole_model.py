@@ -30,7 +30,7 @@ from geocontact.below_knee_prosthesis.calibration.zone_parameters import ZonePar
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.keel.quasi_static import KeelMotion
 from geocontact.below_knee_prosthesis.leg import FootOffset
-from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, recorded_start, told_at
+from geocontact.below_knee_prosthesis.simulate import FIRST, GATE, TOLERANCE, outputs_at, recorded_start
 from geocontact.below_knee_prosthesis.stance_model import (
     FLOOR,
     StanceModel,
@@ -149,10 +149,10 @@ class WholeStance:
 
     def keel_motion(self, shown: ShownStance, foot: VariableStiffnessFoot) -> KeelMotion:
         """What each sphere does."""
-        told = told_at(self.model, *self._arguments(shown.x, shown.p))
+        outputs = outputs_at(self.model, *self._arguments(shown.x, shown.p))
         n = len(self.model.equations.names)
         angles, speeds = shown.x[:, n - foot.keel.hinges : n], shown.x[:, 2 * n - foot.keel.hinges : 2 * n]
-        return foot.at(self.stance.recorded.fulcrum).at(angles, speeds, told.poses, FLOOR, told.rate)
+        return foot.at(self.stance.recorded.fulcrum).at(angles, speeds, outputs.poses, FLOOR, outputs.rate)
 
     def _along(self) -> tuple[Float[np.ndarray, "t 3"], Float[np.ndarray, " t"]]:
         """The recorded keel's direction, and its end along it [m]."""

@@ -48,7 +48,7 @@ def friction_slope(speed: float, threshold: float, static: float, kinetic: float
 
 @kernel
 def sphere_force(
-    told: Float[np.ndarray, " told"],
+    outputs: Float[np.ndarray, " outputs"],
     numbers: Float[np.ndarray, " five"],
     law: Float[np.ndarray, " three"],
     n: Vector,
@@ -58,9 +58,9 @@ def sphere_force(
 ) -> tuple[Vector, Vector, Vector, Vector, float, float]:
     """Force of a sphere that touches, and what its change is made of.
 
-    Pressing and force are written to `told`. Returned are the force, the same per pressing, the direction of sliding,
-    the slopes of the pressing by depth and rate and of the friction by speed, the friction, and the speed, which is
-    never 0.
+    Pressing and force are written to `outputs`. Returned are the force, the same per pressing, the direction of
+    sliding, the slopes of the pressing by depth and rate and of the friction by speed, the friction, and the speed,
+    which is never 0.
     """
     rate = -dot(n, v)
     pressing = normal_force(depth, rate, numbers[K], law[EXPONENT], numbers[B], law[FULL_DEPTH])
@@ -71,8 +71,8 @@ def sphere_force(
     direction = plus((0.0, 0.0, 0.0), sliding, 1.0 / speed)
     per_pressing = plus(n, direction, -mu)
     force = plus((0.0, 0.0, 0.0), per_pressing, pressing)
-    told[2] = pressing
-    told[3], told[4], told[5] = force
+    outputs[2] = pressing
+    outputs[3], outputs[4], outputs[5] = force
     return force, per_pressing, direction, (by_depth, by_rate, pressing * by_speed), pressing * mu, speed
 
 
@@ -80,7 +80,7 @@ def sphere_force(
 def add_sphere(
     torque: Float[np.ndarray, " m"],
     slope: Float[np.ndarray, "m m"],
-    told: Float[np.ndarray, " told"],
+    outputs: Float[np.ndarray, " outputs"],
     point: Float[np.ndarray, " 3"],
     last: int,
     numbers: Float[np.ndarray, " five"],
@@ -95,7 +95,7 @@ def add_sphere(
     turned: Float[np.ndarray, "m 3 3"],
     goes: Float[np.ndarray, "m 3"],
 ) -> None:
-    """A sphere's part in torques and derivatives; `told`: depth, its rate, pressing, force, centre, sliding."""
+    """A sphere's part in torques and derivatives; `outputs`: depth, its rate, pressing, force, centre, sliding."""
     n, spin, flow = (plane[0], plane[1], plane[2]), (twist[0], twist[1], twist[2]), (twist[3], twist[4], twist[5])
     radius = numbers[RADIUS]
     c = carried(point, last, rest, place, turned)
@@ -106,13 +106,20 @@ def add_sphere(
         goes[j, 0], goes[j, 1], goes[j, 2] = way
         v, whole = plus(v, way, speeds[j]), plus(whole, row(axis, j), speeds[j])
     sliding = along(n, plus(v, cross(whole, n), -radius))
-    told[0], told[1], told[2], told[3], told[4], told[5] = radius - height, -dot(n, v), 0.0, 0.0, 0.0, 0.0
-    told[6], told[7], told[8] = c
-    told[9], told[10], told[11] = sliding
+    outputs[0], outputs[1], outputs[2], outputs[3], outputs[4], outputs[5] = (
+        radius - height,
+        -dot(n, v),
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
+    outputs[6], outputs[7], outputs[8] = c
+    outputs[9], outputs[10], outputs[11] = sliding
     if not radius - height > 0.0:
         return
     force, per_pressing, direction, slopes, rubbing, speed = sphere_force(
-        told, numbers, law, n, v, sliding, radius - height
+        outputs, numbers, law, n, v, sliding, radius - height
     )
     ground = plus(c, n, -height)
     ahead, spun = plus(plus(v, flow, -1.0), cross(spin, c), -1.0), plus(whole, spin, -1.0)
@@ -196,7 +203,7 @@ def balance(
     gravity: Float[np.ndarray, " 3"],
     torque: Float[np.ndarray, " m"],
     slope: Float[np.ndarray, "m m"],
-    told: Float[np.ndarray, "n told"],
+    outputs: Float[np.ndarray, "n outputs"],
 ) -> None:
     """Torques about the joints and their derivatives, and what the spheres do.
 
@@ -230,7 +237,7 @@ def balance(
         add_sphere(
             torque,
             slope,
-            told[i],
+            outputs[i],
             points[i],
             last[i],
             numbers[i],

@@ -1,7 +1,7 @@
 """Static compression of the forefoot: simulated, and bending stiffness identified from a measured one.
 
 1/K(l) = C(l) EI / EI + 1/k is linear in the unknowns 1/EI and 1/k, so that two settings give both, and a third one of
-known stiffness its fulcrum. With three stiffnesses and one fulcrum unknown nothing is left over to test the theory, and
+known stiffness its fulcrum. With three stiffnesses and one fulcrum unknown nothing remains to test the theory, and
 how the posterior end is held is not identified either: that choice moves EI by 5 %, the series stiffness by 20 %.
 
 The study of the variable-stiffness foot fits its model to such tests without saying where the plate presses, how it is

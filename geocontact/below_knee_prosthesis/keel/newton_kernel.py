@@ -191,7 +191,7 @@ def solve_frames(
     gravities: Float[np.ndarray, "t 3"],
     tolerance: float,
     angles: Float[np.ndarray, "t m"],
-    told: Float[np.ndarray, "t n told"],
+    outputs: Float[np.ndarray, "t n outputs"],
     left: Float[np.ndarray, " t"],
     steps: Int[np.ndarray, " t"],
 ) -> bool:
@@ -226,7 +226,7 @@ def solve_frames(
                 gravities[i],
                 torque,
                 slope,
-                told[i],
+                outputs[i],
             )
             left[i] = largest(torque)
             if left[i] <= tolerance or not advanced(y, step, reached, older, first, state, torque, slope, tolerance):

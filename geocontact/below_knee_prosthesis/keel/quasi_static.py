@@ -102,7 +102,7 @@ TOLERANCE = 1e-8
 """N m; torque about a joint that is left."""
 SETTLED, ROUNDS = 1e-6, 30
 """m; by which a height above uneven ground may differ from that above the plane that is used; turns of both at most."""
-TOLD = 12
+OUTPUTS = 12
 """Numbers of a sphere: depth, its rate, pressing, force, centre, sliding."""
 Array = np.ndarray
 ChainArrays = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array, Array]
@@ -207,7 +207,7 @@ class QuasiStaticKeel:
         per_time = np.zeros(frames) if time is None else np.concatenate([[0.0], 1.0 / np.diff(time)])
         joints = self.keel.hinges
         angles, left = np.empty((frames, joints)), np.empty(frames)
-        told, steps = np.empty((frames, count, TOLD)), np.zeros(frames, np.int64)
+        outputs, steps = np.empty((frames, count, OUTPUTS)), np.zeros(frames, np.int64)
         found = newton_kernel.solve_frames(
             np.zeros(joints) if start is None else np.asarray(start, float),
             per_time,
@@ -217,14 +217,14 @@ class QuasiStaticKeel:
             seen.gravities,
             TOLERANCE,
             angles,
-            told,
+            outputs,
             left,
             steps,
         )
         if not found:
             bad = int(np.argmax(~(left <= TOLERANCE)))
             raise ArithmeticError(f"the keel has no equilibrium in frame {bad + 1}: {left[bad]:.3g} N m is left")
-        return _results(angles, told, steps, seen, moving=rate is not None)
+        return _results(angles, outputs, steps, seen, moving=rate is not None)
 
     def at(
         self,
@@ -240,13 +240,13 @@ class QuasiStaticKeel:
         """
         count, joints = len(self.sole.spheres), angles.shape[1]
         seen = seen_by_keel(poses, plane_under(ground, poses), DOWNWARDS, rate, count)
-        told = np.empty((len(angles), count, TOLD))
+        outputs = np.empty((len(angles), count, OUTPUTS))
         torque, slope, memory = np.empty(joints), np.empty((joints, joints)), np.zeros((2, joints))
         arrays = self.arrays(static=False, falling=True)
         for i, (y, u) in enumerate(zip(angles, speeds, strict=True)):
             at = seen.planes[i], seen.twists[i], seen.gravities[i]
-            balance(y, y - u, 1.0, arrays[0], memory, *arrays[1:], *at, torque, slope, told[i])
-        return _results(angles, told, np.zeros(len(angles), np.int64), seen, moving=True)
+            balance(y, y - u, 1.0, arrays[0], memory, *arrays[1:], *at, torque, slope, outputs[i])
+        return _results(angles, outputs, np.zeros(len(angles), np.int64), seen, moving=True)
 
     def arrays(self, *, static: bool, falling: bool = False) -> ChainArrays:
         """Springs, joints, spheres, law and weights as the kernel takes them.
@@ -290,18 +290,18 @@ class QuasiStaticKeel:
 
 def _results(
     angles: Float[np.ndarray, "t m"],
-    told: Float[np.ndarray, "t n told"],
+    outputs: Float[np.ndarray, "t n outputs"],
     steps: Int[np.ndarray, " t"],
     seen: InKeel,
     *,
     moving: bool,
 ) -> KeelMotion:
     """From the keel's frame to the ground's."""
-    depth, rate, pressing = told[..., 0], told[..., 1], told[..., 2]
-    own = told[..., 3:].reshape(*depth.shape, 3, 3)
+    depth, rate, pressing = outputs[..., 0], outputs[..., 1], outputs[..., 2]
+    own = outputs[..., 3:].reshape(*depth.shape, 3, 3)
     force, arm, sliding = np.moveaxis(np.einsum("tij,tnkj->tnki", seen.rotation, own), 2, 0)
     centre = arm + seen.origin[:, None]
-    height = np.einsum("tnj,tnj->tn", told[..., 6:9], seen.planes[..., :3]) + seen.planes[..., 3]
+    height = np.einsum("tnj,tnj->tn", outputs[..., 6:9], seen.planes[..., :3]) + seen.planes[..., 3]
     touching = (depth > 0.0)[..., None]
     point = np.where(touching, centre - height[..., None] * seen.upwards, np.nan)
     normal = np.where(touching, seen.upwards, np.nan)

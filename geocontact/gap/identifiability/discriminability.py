@@ -12,7 +12,7 @@ from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.data.gap_case import GapCase
 from geocontact.effects.catalogue import candidates
-from geocontact.gap.attribute import Attribution, Listener, attribute, nobody
+from geocontact.gap.attribute import Attribution, Listener, attribute, no_listener
 from geocontact.gap.case.admission import admitted
 from geocontact.gap.experiment.proposal import Proposal, first_of, proposed
 from geocontact.gap.identifiability.detectability import Detectability, detectabilities
@@ -81,7 +81,7 @@ def discriminability(
     names: Sequence[str] = (),
     nats: float = NATS,
     step: Callable[[], None] = lambda: None,
-    at: Listener = nobody,
+    at: Listener = no_listener,
 ) -> Discriminability:
     """What the trials of a case tell of effects, on one core.
 

@@ -72,7 +72,7 @@ class Autocorrelation:
 def autocorrelation_of(
     time: Float[np.ndarray, " n"], residual: Float[np.ndarray, " n"], jacobian: Float[np.ndarray, "n p"]
 ) -> Autocorrelation:
-    """Weights of the correlation times by the restricted likelihood of what the fit left over."""
+    """Weights of the correlation times by the restricted likelihood of the residuals of the fit."""
     n, p = jacobian.shape
     steps = np.diff(time)
     usual = float(np.median(steps))

@@ -1,4 +1,4 @@
-"""Levels of noise, and what is believed of them before residuals are looked at.
+"""Levels of noise, and their prior, before residuals are looked at.
 
 Noise that is estimated grows with whatever the model misses, so that a strong gap passes for high noise. What is known
 of it beforehand is therefore a belief and, where there is one, a limit: of the whole noise of a sensor, and of that of

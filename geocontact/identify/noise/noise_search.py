@@ -30,7 +30,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import (
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
-CURVED = 0.2  # of what was expected, curvature along a step that a secant is believed
+CURVED = 0.2  # of what was expected, curvature along a step that a secant counts
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class SearchPoint:
 
 @dataclass(frozen=True)
 class CostSurface:
-    """What is searched: the pieces of all trials, and what was believed of the levels."""
+    """What is searched: the pieces of all trials, and the prior of the levels."""
 
     pieces: tuple[ResidualBlock, ...]
     beliefs: NoisePriors
@@ -126,7 +126,7 @@ def most_likely(
     rounds: int = LIMIT,
     others: Sequence[NoiseLevels] = (),
 ) -> tuple[NoiseLevels, float, float]:
-    """Levels that make the residuals most likely, given what was believed of them.
+    """Levels that make the residuals most likely, given their prior.
 
     With them half their squared surprise, and the logarithm of what was maximised. What is found is a local best.
 
@@ -137,7 +137,7 @@ def most_likely(
     jitter
         Derivatives with respect to what varies from trial to trial, times its standard deviation.
     beliefs
-        What was believed of the levels, and their limits.
+        Prior of the levels, and their limits.
     start, others
         The search sets out from the likeliest of these.
     rounds
@@ -196,7 +196,5 @@ def secant(
     bent = curvature @ step
     expected, seen = float(step @ bent), float(step @ change)
     share = 1.0 if seen >= CURVED * expected else (1.0 - CURVED) * expected / (expected - seen)
-    believed = share * change + (1.0 - share) * bent
-    return np.asarray(
-        curvature - np.outer(bent, bent) / expected + np.outer(believed, believed) / float(step @ believed)
-    )
+    mixed = share * change + (1.0 - share) * bent
+    return np.asarray(curvature - np.outer(bent, bent) / expected + np.outer(mixed, mixed) / float(step @ mixed))

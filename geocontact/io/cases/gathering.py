@@ -28,7 +28,8 @@ from geocontact.io.cases.case_settings import (
     settings_of,
 )
 from geocontact.io.cases.trial_table import TrialTable
-from geocontact.io.documents import Beside, Document, Holds, Text, Word, checked, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Beside, Document, Holds, Text, Word, checked
 from geocontact.io.text.columns import LARGEST_RADIANS, resolve
 from geocontact.io.text.csv_text import Column
 from geocontact.io.text.tables import TextTable, listed, read_table

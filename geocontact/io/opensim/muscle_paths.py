@@ -5,7 +5,6 @@ Its libraries and CasADi's do not load into one process. The extra `muscles` bri
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -19,6 +18,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.data.module_folders import searching
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +70,9 @@ def muscle_paths(
         asked, found = Path(folder) / "asked.npz", Path(folder) / "found.npz"
         given = {"model": str(model.absolute()), "names": list(coordinates), "values": values, "beyond": list(beyond)}
         np.savez(asked, **given)  # type: ignore[arg-type]
+        program = f"from {__name__} import answer; answer({str(asked)!r}, {str(found)!r})"
         run = subprocess.run(
-            [sys.executable, "-P", "-c", f"from {__name__} import answer; answer({str(asked)!r}, {str(found)!r})"],
-            cwd=folder,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-            capture_output=True,
-            text=True,
-            check=False,
+            [sys.executable, "-P", "-c", searching(program)], cwd=folder, capture_output=True, text=True, check=False
         )
         if run.returncode or not found.is_file():
             why = (run.stderr.strip().splitlines() or ["it ended without a word"])[-1]

@@ -57,6 +57,7 @@ from geocontact.data.plausible import (
     PLACE_ON_BODY,
     YOUNG,
 )
+from geocontact.io.document_errors import refusal
 from geocontact.io.documents import (
     Document,
     File,
@@ -70,7 +71,6 @@ from geocontact.io.documents import (
     Word,
     doubled,
     read_document,
-    refusal,
 )
 
 MeshUnit = Literal["m", "cm", "mm", "in"]

@@ -21,7 +21,8 @@ from pydantic import Field, model_validator
 from geocontact.data.body_segments import OWN_VALUES, SEGMENTS, Sex
 from geocontact.data.plausible import AGE, TALL, Plausible
 from geocontact.data.units import m
-from geocontact.io.documents import Document, WithUnit, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, WithUnit
 
 LONG = Plausible("a length of a segment", m, (0.005, 1.5))
 Mass = Annotated[float, WithUnit("kg"), Field(gt=0.0)]

@@ -11,7 +11,8 @@ from jaxtyping import Float
 from pydantic import model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import Document, File, Word, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, File, Word
 from geocontact.io.recordings.foot_quantities import (
     GAUGE,
     PRESSED,

@@ -38,7 +38,8 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from geocontact.data.parameter import SOURCES
-from geocontact.io.documents import Document, File, Listed, Rows, Word, doubled, read_document, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, File, Listed, Rows, Word, doubled, read_document
 from geocontact.io.recordings.foot_bench import Bench, Compression
 from geocontact.io.recordings.foot_quantities import (
     ABOVE_GROUND,

@@ -38,7 +38,8 @@ from pydantic import Field, model_validator
 
 from geocontact.data.plausible import PERSON, Plausible
 from geocontact.data.units import mm
-from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, File, Listed, WithUnit, Word, doubled, read_document
 from geocontact.io.recordings.described_person import DescribedPerson
 
 FULCRUM = Plausible("the place of a fulcrum", mm, (1.0, 500.0))

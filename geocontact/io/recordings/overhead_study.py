@@ -48,7 +48,8 @@ from pydantic import Field, PlainValidator, model_validator
 
 from geocontact.data.body_segments import Sex
 from geocontact.data.plausible import KG, PERSON, N, Plausible
-from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document
 from geocontact.io.recordings.described_person import DescribedPerson
 
 TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)

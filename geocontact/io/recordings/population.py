@@ -38,7 +38,8 @@ from jaxtyping import Float
 from pydantic import AfterValidator, Field, FiniteFloat, create_model, model_validator
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import Beside, Document, checked, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Beside, Document, checked
 from geocontact.io.text.side_table import read_side_table
 from geocontact.io.text.toml_text import toml_of
 from geocontact.io.text.units import si_unit

@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from pydantic import create_model
 
 from geocontact.data.errors import InputError
-from geocontact.io.documents import Document, Some, WithUnit, Word, checked, refusal
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, Some, WithUnit, Word, checked
 from geocontact.io.text.toml_text import toml_of
 
 LARGEST = 100_000

@@ -41,19 +41,8 @@ from pydantic import Field, model_validator
 from geocontact.data.plausible import N_M, PERSON, TALL, N, Plausible
 from geocontact.data.text import same_place
 from geocontact.data.units import Unit, deg, mm
-from geocontact.io.documents import (
-    Document,
-    File,
-    FileName,
-    Files,
-    Listed,
-    Names,
-    Some,
-    WithUnit,
-    Word,
-    read_document,
-    refusal,
-)
+from geocontact.io.document_errors import refusal
+from geocontact.io.documents import Document, File, FileName, Files, Listed, Names, Some, WithUnit, Word, read_document
 from geocontact.io.recordings.described_person import OVER_HIPS, OWN, DescribedPerson, Mass
 
 TURNS = Unit("rad/s", "rad/s", 1.0)

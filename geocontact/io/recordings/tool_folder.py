@@ -73,8 +73,9 @@ class FolderTrial:
     """Files of one trial.
 
     `model` is one of its own, `static` whether its name says that somebody stands, `rival` a second file of its
-    markers, which leaves it open which is meant; `forces` are tables of ground reactions, which do not say on which
-    bodies they act; `rival_loads` are all files of its loads where there are several, and `loads` is None then.
+    markers, which leaves it open which is meant; `rival_motion` is TRIAL.mot beside TRIAL_ik.mot, a second motion where
+    it holds no forces; `forces` are tables of ground reactions, which do not say on which bodies they act;
+    `rival_loads` are all files of its loads where there are several, and `loads` is None then.
     """
 
     name: str
@@ -87,6 +88,7 @@ class FolderTrial:
     rival: Path | None = None
     forces: tuple[Path, ...] = ()
     rival_loads: tuple[Path, ...] = ()
+    rival_motion: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -234,7 +236,8 @@ def _laboratory(root: Path) -> ToolFolder | None:
     recorded, exported = _by_stem(root, ".c3d"), _by_stem(root, ".trc")
     markers, models = {**exported, **recorded}, tuple(_named(root, ".osim"))
     others = {f.stem: f for f in _named(root, ".mot") if _trial_of_loads(f) is None}
-    motions = {**others, **_by_stem(root, ".mot", "_ik")}
+    computed = _by_stem(root, ".mot", "_ik")
+    motions = {**others, **computed}
     names = markers or ({file.stem.removesuffix("_ik") for file in others.values()} if models else {})
     if not names:
         return None
@@ -249,6 +252,7 @@ def _laboratory(root: Path) -> ToolFolder | None:
             rival=exported.get(name) if name in recorded else None,
             forces=forces[name],
             rival_loads=loads[name] if len(loads[name]) > 1 else (),
+            rival_motion=others.get(name) if name in computed else None,
         )
         for name in sorted(names)
     ]

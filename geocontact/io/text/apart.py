@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
+from geocontact.data.module_folders import searching
+
+PROGRAM = "import runpy\nrunpy.run_module(sys.argv.pop(1), run_name='__main__', alter_sys=True)"
 
 
 def run_apart(module: str, words: list[str], seconds: float) -> subprocess.CompletedProcess[bytes]:
     """`python -m MODULE WORDS` in another process, which finds the modules that this one finds.
+
+    It finds none in the current folder (`module_folders`).
 
     Raises
     ------
     subprocess.TimeoutExpired
         It takes longer.
     """
-    paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), str(ROOT)]))
-    command = [sys.executable, "-P", "-W", "ignore", "-m", module, *words]
-    return subprocess.run(
-        command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, timeout=seconds, check=False
-    )
+    command = [sys.executable, "-P", "-W", "ignore", "-c", searching(PROGRAM), module, *words]
+    return subprocess.run(command, capture_output=True, timeout=seconds, check=False)

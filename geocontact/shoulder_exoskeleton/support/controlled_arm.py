@@ -193,7 +193,7 @@ def simulated_support(
         lost = True
     torque = raising_torque(found)
     rate = float(np.abs(np.diff(torque) / np.diff(found.motion.time)).max())
-    force = np.linalg.norm(found.told["force"], axis=1)
+    force = np.linalg.norm(found.outputs["force"], axis=1)
     outcome = outcome_of(trial.needed.total, torque, float(force.max()), rate)
     outcome = replace(outcome, out_of_cuff=float(found.out_of_cuff.mean()))
     return SimulatedSupport(arm, torque, force, outcome, lost)
@@ -204,4 +204,4 @@ def raising_torque(arm: ArmSimulation) -> Float[np.ndarray, " t"]:
     reach = arm.motion.interface - arm.motion.shoulder
     axis = np.cross(DOWN, reach)
     unit = axis / np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
-    return np.asarray(np.einsum("ti,ti->t", unit, np.cross(reach, arm.told["force"])))
+    return np.asarray(np.einsum("ti,ti->t", unit, np.cross(reach, arm.outputs["force"])))

@@ -6,13 +6,13 @@ renders runs here, and so does the question whether rendering works.
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
-from pathlib import Path
+
+from geocontact.data.module_folders import searching
 
 SLOW = "no answer within"
 _FATAL_ON_WINDOWS = 0xC0000000  # status codes from here on are crashes; elsewhere a crash is a negative code
@@ -21,13 +21,10 @@ _FATAL_ON_WINDOWS = 0xC0000000  # status codes from here on are crashes; elsewhe
 def start(program: str, *arguments: str) -> subprocess.Popen[str]:
     """Run `program` by this Python; it finds the modules that this process finds, and sees `arguments` as sys.argv[1:].
 
-    The current folder is not searched for modules (-P): a file called numpy.py beside the data is not run.
+    The current folder is not searched for modules: a file called numpy.py beside the data is not run.
     """
-    here = str(Path(__file__).resolve().parents[3])
-    paths = os.pathsep.join(dict.fromkeys([*(path for path in sys.path if path), here]))
     return subprocess.Popen(
-        [sys.executable, "-P", "-c", program, *arguments],
-        env={**os.environ, "PYTHONPATH": paths},
+        [sys.executable, "-P", "-c", searching(program), *arguments],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,

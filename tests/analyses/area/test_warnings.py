@@ -66,6 +66,10 @@ def inside_out(points: np.ndarray) -> np.ndarray:
     return points[:, ::-1]
 
 
+def inside_out_with_a_face_again(points: np.ndarray) -> np.ndarray:
+    return with_face_again(inside_out(points))
+
+
 def coordinates(folder: Path) -> Path:
     """The cycle without its rotation column."""
     file = storage(folder, [30])
@@ -103,6 +107,16 @@ WARNED: dict[str, tuple[Callable[[Path], dict], str, tuple[str, ...]]] = {
     "duplicate face": (altered(with_face_again), "moving", ("changed.stl: 1 duplicate face", "first is face 2880")),
     "open body": (altered(without_a_far_face), "moving", ("changed.stl is open", "area_fixed is unsigned")),
     "faces pointing inwards": (altered(inside_out), "both", ("changed.stl: faces point inwards",)),
+    "faces pointing inwards, one of them twice": (
+        altered(inside_out_with_a_face_again),
+        "moving",
+        ("changed.stl: faces point inwards",),
+    ),
+    "a hole that is none": (
+        altered(inside_out_with_a_face_again),
+        "moving",
+        ("area_fixed is unsigned", "its doubled faces alone keep it open: see `assume_closed` moving"),
+    ),
     "missing coordinate": (
         knee(**JOINT),
         "both",

@@ -135,7 +135,7 @@ def test_shear_around_is_the_friction_against_the_turn_of_the_place(side: str) -
     from geocontact.shoulder_exoskeleton.simulate import simulate_arm
 
     arm = simulate_arm(lifted(side="right" if side == "right" else "left"), lucy(), FITTING, 1.0)
-    place, friction = arm.told["place"], arm.told["friction"]
+    place, friction = arm.outputs["place"], arm.outputs["friction"]
     outwards = place * [0.0, 1.0, 1.0]
     turned = np.cross(outwards, friction)[:, 0] / np.linalg.norm(outwards, axis=1)
     np.testing.assert_allclose(arm.shear_around, turned, atol=1e-12)

@@ -61,7 +61,7 @@ def even(folder: Path, factor: float) -> Path:
 
 def states(found: ShoulderSimulateResult) -> np.ndarray:
     s = found.arms[0].simulation
-    return np.column_stack([s.angles, s.rates, s.cylinder, s.told["in_cuff"]])
+    return np.column_stack([s.angles, s.rates, s.cylinder, s.outputs["in_cuff"]])
 
 
 @pytest.mark.parametrize(("factor", "level"), [(1.0, 1.0), (0.0, 0.0), (0.5, 0.5)])

@@ -88,7 +88,7 @@ def test_the_shoulder_s_change_is_the_moment_of_the_cuff() -> None:
         reach = s.motion.interface - s.motion.shoulder
         axis = np.cross([0.0, 0.0, -1.0], reach)
         axis /= np.linalg.norm(axis, axis=1, keepdims=True)
-        lifted = np.einsum("ti,ti->t", axis, np.cross(reach, s.told["force"]))
+        lifted = np.einsum("ti,ti->t", axis, np.cross(reach, s.outputs["force"]))
         np.testing.assert_allclose(torque["without"] - torque["motion kept"], lifted, atol=0.3)
         np.testing.assert_array_equal(elbow["without"], elbow["motion kept"])
         kept = torque["torque kept"]

@@ -272,7 +272,7 @@ def test_inverse_dynamics_reads_the_forces_as_external_loads(
     values = dict(zip(result.forces.names, np.asarray(result.forces.values).T, strict=True))
     for each, name in zip(found.arms, ("humerus_r", "humerus_l"), strict=True):
         s, frame = each.simulation, found.frame
-        force = np.einsum("tij,ti->tj", frame.rotation, s.told["force"])
+        force = np.einsum("tij,ti->tj", frame.rotation, s.outputs["force"])
         place = frame.origin + np.einsum("tij,ti->tj", frame.rotation, s.motion.interface)
         wrench = Wrench(force, np.zeros_like(force), place, "ground").moved_to(np.zeros(3))
         held = np.column_stack([values[f"{name}_t{axis}_force"] for axis in "xyz"])
@@ -341,7 +341,9 @@ def test_lines_for_paraview_hold_points_and_forces(folder: Path, found: Shoulder
     belt = s.device["belt_share"] * s.wearer.torso
     np.testing.assert_allclose(lines.points[12:], [[0.0, 0.0, 0.0], [0.0, 0.0, -belt]], atol=1e-6)
     np.testing.assert_allclose(lines.points[5], s.motion.interface[400], atol=1e-6)
-    np.testing.assert_allclose(lines.point_data["force on the arm [N]"][5], s.told["force"][400], rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(
+        lines.point_data["force on the arm [N]"][5], s.outputs["force"][400], rtol=1e-5, atol=1e-5
+    )
 
 
 def test_markers_are_in_the_frame_of_the_device(found: ShoulderSimulateResult) -> None:
@@ -374,7 +376,7 @@ def test_a_padded_cuff_tells_couple_and_pressures(monkeypatch: pytest.MonkeyPatc
         warnings.simplefilter("ignore", gc.InputWarning)
         options = {"side": "left", "cuff": "surface", "time": (0.0, 2.0), "upright": (0.0, 0.5)}
         result = gc.shoulder.simulate(TRIAL / "markers.trc", **options)
-    table, told = result.table(), result.arms[0].simulation.told
+    table, told = result.table(), result.arms[0].simulation.outputs
     mirrored = np.einsum("ti,ti->t", told["in_cuff"], told["couple"])
     np.testing.assert_allclose(np.einsum("ti,ti->t", told["force"], told["moment"]), -mirrored, atol=1e-9)
     write_external_loads(tmp_path, [result.arms[0].simulation], result.frame)

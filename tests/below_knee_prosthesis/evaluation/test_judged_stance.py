@@ -11,11 +11,11 @@ from geocontact.below_knee_prosthesis.evaluation import (
     MEAN,
     MeasuredCurve,
     PlateStance,
-    oddness,
     plate_ankle_moment,
     trivial_curves,
 )
 from geocontact.below_knee_prosthesis.leg_tree import recorded_tree
+from geocontact.below_knee_prosthesis.outliers import oddness
 from tests.below_knee_prosthesis.model.legs import a_leg, a_motion
 
 

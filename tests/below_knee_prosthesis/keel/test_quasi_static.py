@@ -19,7 +19,7 @@ from geocontact.below_knee_prosthesis.keel.on_tree import (
     keel_bodies,
     sole_wrenches,
 )
-from geocontact.below_knee_prosthesis.keel.quasi_static import TOLD, QuasiStaticKeel
+from geocontact.below_knee_prosthesis.keel.quasi_static import OUTPUTS, QuasiStaticKeel
 from geocontact.below_knee_prosthesis.keel.sole import KeelSole, law_of, sole_of
 from geocontact.below_knee_prosthesis.keel.vsf import vsf_keel
 from geocontact.contact.sphere_foot import normal_force
@@ -64,7 +64,7 @@ def state(rng: np.random.Generator) -> dict[str, Any]:
 
 
 def torques(one: QuasiStaticKeel, at: dict[str, Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    torque, slope, told = np.empty(9), np.empty((9, 9)), np.empty((24, TOLD))
+    torque, slope, outputs = np.empty(9), np.empty((9, 9)), np.empty((24, OUTPUTS))
     springs, *arrays = one.arrays(static=False, falling=True)
     balance(
         at["y"],
@@ -78,17 +78,17 @@ def torques(one: QuasiStaticKeel, at: dict[str, Any]) -> tuple[np.ndarray, np.nd
         at["gravity"],
         torque,
         slope,
-        told,
+        outputs,
     )
-    return torque, slope, told
+    return torque, slope, outputs
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_derivatives_are_exact(seed: int) -> None:
     one, at, step = foot(), state(np.random.default_rng(seed)), 1e-7
     one = replace(one, keel=replace(one.keel, hysteresis=0.2, friction=0.03))
-    _, slope, told = torques(one, at)
-    assert ((told[:, 0] > 0.0) & (told[:, 1] > 0.0)).sum() >= 4
+    _, slope, outputs = torques(one, at)
+    assert ((outputs[:, 0] > 0.0) & (outputs[:, 1] > 0.0)).sum() >= 4
     differences = []
     for unit in np.eye(9):
         ends = [torques(one, at | {"y": at["y"] + sign * step * unit})[0] for sign in (1.0, -1.0)]
@@ -132,8 +132,8 @@ def test_torques_are_those_of_the_tree() -> None:
         "twist": np.concatenate([[spin[2, 1], spin[0, 2], spin[1, 0]], R.inv().apply(speed)]),
         "gravity": np.zeros(3),
     }
-    found, _, told = torques(foot(), at)
-    assert (told[:, 0] > 0.0).sum() >= 4
+    found, _, outputs = torques(foot(), at)
+    assert (outputs[:, 0] > 0.0).sum() >= 4
     w = np.concatenate([turn, shift, turn_rate, speed, np.zeros(6)])
     wanted = np.array(torque_of(DM(at["y"]), DM(at["per_time"] * (at["y"] - at["before"])), DM(w))).ravel()
     assert found == pytest.approx(wanted, rel=1e-6, abs=1e-5)

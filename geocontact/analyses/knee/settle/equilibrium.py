@@ -15,8 +15,6 @@ from geocontact.analyses.frame import places, quantities
 from geocontact.analyses.frame.bodies import (
     check_surfaces,
     chosen_faces,
-    confined_modulus,
-    measured_thickness,
     naming_unit_of_moving,
     read_body,
     refuse_two_spaces,
@@ -24,6 +22,7 @@ from geocontact.analyses.frame.bodies import (
     unit_of_moving,
 )
 from geocontact.analyses.frame.collector import add_input, reserve
+from geocontact.analyses.frame.layers import confined_modulus, measured_thickness
 from geocontact.analyses.frame.shared_options import medial_side
 from geocontact.analyses.knee.settle.options import LOAD, SettleOptions
 from geocontact.data.errors import InputError
@@ -315,7 +314,7 @@ class Settled:
 
     @property
     def residuals(self) -> Float[np.ndarray, " t"]:
-        """Force left over [N]; also where that is too much."""
+        """Remaining force [N]; also where that is too much."""
         return np.array([np.nan if f.rest is None else f.rest.residual for f in self.frames])
 
     @property

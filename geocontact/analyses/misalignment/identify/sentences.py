@@ -119,7 +119,9 @@ def _say_what_is_open(found: Fitted) -> None:
         reserve(SCALE_FREE)
     apart, problem = found.separable, found.estimate.problem
     if "c" in problem.names and apart.from_all < OWN and not set(problem.priors) & {"k", "c"}:
-        told = f"only {apart.from_all:.2%} of the effect of c on the force is its own" if apart.told else "not at all"
+        told = (
+            f"only {apart.from_all:.2%} of the effect of c on the force is its own" if apart.separable else "not at all"
+        )
         reserve(
             "angle and force hardly separate the compliance c of the upper arm's fixation from that of the cuff "
             f"in series with it ({told}): state k or c (`known`), or give a prior (`prior`)"
@@ -188,7 +190,7 @@ def _directions(found: Fitted) -> dict[str, Any]:
     known = {"k_and_lengths": found.all_directions, "free": found.free_directions}
     told = {key: _direction(each) for key, each in known.items() if each is not None}
     apart = found.separable
-    fixation = {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": apart.told}
+    fixation = {"own_beside_k": apart.from_cuff, "own_beside_all_free": apart.from_all, "told_apart": apart.separable}
     return {**told, "fixation_from_cuff": fixation}
 
 
@@ -326,7 +328,7 @@ def _scale(found: Fitted) -> str:
 def fixation_words(found: Fitted) -> str:
     """What k holds beside the cuff, and how far a fixation that yields is separable from it."""
     apart, c = found.separable, found.estimate.named["c"]
-    if not apart.told:
+    if not apart.separable:
         told = "Angle and force cannot separate them: only 1/k + c is identified."
     else:
         told = (

@@ -38,7 +38,7 @@ def share_words(share: float) -> str:
 
 
 def warn_of_residuals(forces: GeneralisedForces) -> None:
-    """One line where more is left over than Hicks et al. allow, or where nothing tells."""
+    """One line where residuals are larger than Hicks et al. allow, or where none can be checked."""
     if not forces.at_ground.any():
         reserve(f"no joint of six coordinates connects a body to the {GROUND}: there is no residual to check")
     elif forces.peak == 0.0 and force_residual(forces).too_large:

@@ -105,7 +105,7 @@ class IdResult(Result):
         return drawn(forces_curves(self.forces))
 
     def pages(self, drawings: Mapping[str, bytes]) -> dict[str, Page]:
-        """Moments and forces over time, and what is left over."""
+        """Moments and forces over time, and residuals."""
         title = f"Inverse dynamics of {self.options.coordinates.name}"
         return {
             REPORT: forces_page(

@@ -1,4 +1,4 @@
-"""The page of moments and forces over time, and what is left over."""
+"""The page of moments and forces over time, and residuals."""
 
 from __future__ import annotations
 

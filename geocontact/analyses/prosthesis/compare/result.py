@@ -58,10 +58,11 @@ from geocontact.analyses.prosthesis.stance_files import (
     write_spheres,
 )
 from geocontact.below_knee_prosthesis.comparison import odd_stances
-from geocontact.below_knee_prosthesis.evaluation import FEWEST, JudgedStance, Oddness, reasons
+from geocontact.below_knee_prosthesis.evaluation import JudgedStance
 from geocontact.below_knee_prosthesis.foot_numbers import numbers_of
 from geocontact.below_knee_prosthesis.leg import Side
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
+from geocontact.below_knee_prosthesis.outliers import FEWEST, Oddness, reasons
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.errors import InputError
 from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_low_r2, of_many_r2

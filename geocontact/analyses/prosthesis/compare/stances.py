@@ -28,17 +28,16 @@ from geocontact.below_knee_prosthesis.evaluation import (
     MEAN,
     OVER_STANCE,
     JudgedStance,
-    Oddness,
     PlateStance,
     Scoring,
     at_times,
     judged,
-    reasons,
 )
 from geocontact.below_knee_prosthesis.leg import RESIDUAL
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
 from geocontact.below_knee_prosthesis.limb_in_socket import LimbInSocket
 from geocontact.below_knee_prosthesis.marker_draws import MarkerBand
+from geocontact.below_knee_prosthesis.outliers import Oddness, reasons
 from geocontact.below_knee_prosthesis.recorded_walk import Walk
 from geocontact.below_knee_prosthesis.simulate import Stance
 from geocontact.data.body_segments import BodySegments

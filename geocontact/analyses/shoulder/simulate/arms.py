@@ -19,11 +19,12 @@ from geocontact.analyses.shoulder.simulate.options import ShoulderSimulateOption
 from geocontact.analyses.shoulder.simulated_arm import out_of_cuff_clause, warn_of
 from geocontact.data.errors import InputError
 from geocontact.shoulder_exoskeleton.arm_motion import ArmMotion, Side
-from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings, smoothed_arms
+from geocontact.shoulder_exoskeleton.arms_from_markers import SIDES, MarkerSettings
 from geocontact.shoulder_exoskeleton.cuff_contact import OutOfCuffError
 from geocontact.shoulder_exoskeleton.device import JOINTS, QUANTITIES, Device, Wearer, cylinder_length, lever
 from geocontact.shoulder_exoskeleton.device_frame import DeviceFrame
 from geocontact.shoulder_exoskeleton.sensitivity import Influence
+from geocontact.shoulder_exoskeleton.smoothed_arms import smoothed_arms
 from geocontact.shoulder_exoskeleton.support.controlled_arm import Controller, hand_controller
 from geocontact.shoulder_exoskeleton.support.controller_numbers import (
     CONTROLLED,
@@ -218,7 +219,7 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
         "supporting_max_N": s.supporting.max(),
         "shear_max_N": s.shear.max(),
         "slip_mm": 1e3 * s.slip[-1],
-        "support_torque_max_N_m": s.told["support"].max(),
+        "support_torque_max_N_m": s.outputs["support"].max(),
         "out_of_cuff_share": s.out_of_cuff.mean(),
         "steps": float(s.steps),
     }
@@ -236,7 +237,7 @@ def summary_of(one: SimulatedArm) -> dict[str, float]:
 def arm_table(arm: SimulatedArm) -> pd.DataFrame:
     """Angles, forces and slip over time; forces of the cuff on the arm, in the device's frame and in the cuff's."""
     s = arm.simulation
-    told, motion = s.told, s.motion
+    told, motion = s.outputs, s.motion
     led = {}
     if arm.detected is not None and arm.factor is not None:
         by_onset = phases_by_onset(motion.time, motion.elevation, arm.phase)
@@ -308,7 +309,7 @@ def at_elevation_table(arms: Sequence[SimulatedArm], elevations: Sequence[float]
                 "shoulder elevation [deg]": np.degrees(s.motion.elevation),
                 **{f"{joint} [deg]": np.degrees(column) for joint, column in zip(JOINTS, s.angles.T, strict=True)},
                 "supporting [N]": s.supporting,
-                "support torque [N m]": s.told["support"][:, 0],
+                "support torque [N m]": s.outputs["support"][:, 0],
             }
             own = {name: float(np.interp(place, frames, values)) for name, values in columns.items()}
             rows.append({"arm": arm.side, "frame": round(place) + 1, **own})

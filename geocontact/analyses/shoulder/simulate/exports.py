@@ -61,12 +61,12 @@ def write_lines(folder: Path, arms: Sequence[ArmSimulation]) -> None:
     points, lines, forces = [], [], []
     start = 0
     for arm in arms:
-        joints = arm.told["joints"].reshape(-1, 4, 3)
+        joints = arm.outputs["joints"].reshape(-1, 4, 3)
         human = np.stack([arm.motion.shoulder, arm.motion.interface], axis=1)
         points.append(np.concatenate([joints, human], axis=1))
         lines += [tuple(range(start, start + 4)), (start + 4, start + 5)]
         at = np.zeros((len(joints), 6, 3))
-        at[:, 5] = arm.told["force"]
+        at[:, 5] = arm.outputs["force"]
         forces.append(at)
         start += 6
     first = arms[0]

@@ -101,12 +101,12 @@ class ShoulderSimulateResult(Result):
     @property
     def force(self) -> dict[str, Float[np.ndarray, "t 3"]]:
         """Force of the cuff on the arm over time by side, in the frame of the device [N]."""
-        return {each.side: each.simulation.told["force"] for each in self.arms}
+        return {each.side: each.simulation.outputs["force"] for each in self.arms}
 
     @property
     def support_torque(self) -> dict[str, Float[np.ndarray, " t"]]:
         """Support torque over time by side [N m]."""
-        return {each.side: each.simulation.told["support"][:, 0] for each in self.arms}
+        return {each.side: each.simulation.outputs["support"][:, 0] for each in self.arms}
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """`right` and `left` over time, `numbers` of the device, `levers` of its cylinder, `sensitivity`,

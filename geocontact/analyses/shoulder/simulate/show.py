@@ -79,7 +79,7 @@ def simulation_page(
     """
     time = arms[0].simulation.motion.time
     lifting = [each.simulation.supporting for each in arms]
-    shown = thinned(len(time), [np.linalg.norm(each.simulation.told["force"], axis=1) for each in arms] + lifting)
+    shown = thinned(len(time), [np.linalg.norm(each.simulation.outputs["force"], axis=1) for each in arms] + lifting)
     answered = [FRAME] if person is None else [FRAME, KEPT]
     changed = [tables[name] for name in ("sensitivity",) if name in tables]
     sections: list[Section] = [
@@ -131,11 +131,11 @@ def _lines(
     device, human, force = [], [], []
     for each in arms:
         s = each.simulation
-        joints = s.told["joints"].reshape(-1, 4, 3)[shown]
+        joints = s.outputs["joints"].reshape(-1, 4, 3)[shown]
         base = np.zeros((len(shown), 1, 3))
         device.append(np.concatenate([base, joints], axis=1))
         human.append(np.stack([s.motion.shoulder[shown], s.motion.interface[shown]], axis=1))
-        tip = s.motion.interface + METRES_PER_NEWTON * s.told["force"]
+        tip = s.motion.interface + METRES_PER_NEWTON * s.outputs["force"]
         force.append(np.stack([s.motion.interface[shown], tip[shown]], axis=1))
     return [
         _linkage("exoskeleton", device, "model", JOINT, LINK),
@@ -179,7 +179,7 @@ def arm_curves(arms: Sequence[SimulatedArm]) -> CurveSheet:
         panel("Interface force that lifts the arm", "N", [(side, s.supporting, own) for side, s, own, _ in each]),
         panel("Shear on the arm", "N", [(side, s.shear, own) for side, s, own, _ in each]),
         panel("Slip along the cuff's wall", "mm", [(side, 1e3 * s.slip, own) for side, s, own, _ in each]),
-        panel("Support torque", "N m", [(side, s.told["support"][:, 0], own) for side, s, own, _ in each]),
+        panel("Support torque", "N m", [(side, s.outputs["support"][:, 0], own) for side, s, own, _ in each]),
     ]
     led = [(one.side, one.factor, stroke(k)) for k, one in enumerate(arms) if one.factor is not None]
     if led:

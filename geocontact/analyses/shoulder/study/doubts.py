@@ -32,7 +32,7 @@ def say_doubts(cases: Sequence[StudyCase], reserved: str) -> None:
     _stops(found, reserved)
     out = {name: float(s.out_of_cuff.mean()) for name, s in found if s.out_of_cuff.any()}
     if out:
-        far = max(1e3 * float(np.abs(s.told["place"][s.out_of_cuff, 0]).max()) for name, s in found if name in out)
+        far = max(1e3 * float(np.abs(s.outputs["place"][s.out_of_cuff, 0]).max()) for name, s in found if name in out)
         reserve(
             f"the sphere is out of the cuff in {len(out)} of {counted(len(found), 'simulation')}, for "
             f"{_range(out.values())} of the time and up to {far:.0f} mm from its middle: {_named(out)}"
