@@ -131,7 +131,11 @@ def test_no_signed_distance_is_below_the_rise_over_a_face(name):
 
 @pytest.mark.parametrize("offset", [-0.4, -0.02, 0.1])
 def test_few_edges_and_faces_are_measured_one_by_one(offset, monkeypatch):
-    """Nearly conforming bodies of 3500 faces each, apart and overlapping: bounds leave less than one in twenty."""
+    """Nearly conforming bodies of 3500 faces each, apart and overlapping: bounds leave less than one in twenty.
+
+    Of the faces less than one in 25: those that the rise about a face of the other body leaves are bounded once more
+    by the rise about themselves, before they are divided. Without that it is one in 22.
+    """
     counted = {"edges": 0, "faces": 0}
     edge_gap, deepest = gap.edge_gap, depth.deepest
 
@@ -152,6 +156,7 @@ def test_few_edges_and_faces_are_measured_one_by_one(offset, monkeypatch):
     rest = settle(femur, insert, RigidTransform.from_translation([-3 * MM, 60 * MM, 0.0]), (0.0, -1.0, 0.0))
     pair.at(np.eye(3), np.asarray(rest.translation) + np.array([0.0, offset * MM, 0.0]))
     assert 0 < counted["edges"] + counted["faces"] < 0.05 * (len(femur.faces) + len(insert.faces)), counted
+    assert counted["faces"] < 0.04 * (len(femur.faces) + len(insert.faces)), counted
 
 
 def test_open_bodies_are_never_searched_for_depth(monkeypatch):

@@ -8,7 +8,7 @@ divided into four as long as the cut still moves, or the bounds are wider than a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -132,7 +132,8 @@ class _Pieces:
     error: Float[np.ndarray, " k"]
 
     def __getitem__(self, chosen: np.ndarray) -> _Pieces:
-        return _Pieces(*(getattr(self, f.name)[chosen] for f in fields(self)))
+        at = np.flatnonzero(chosen)
+        return _Pieces(*(values.take(at, axis=0) for values in vars(self).values()))
 
     @property
     def gap(self) -> Float[np.ndarray, " k"]:
@@ -158,7 +159,7 @@ class _AreaSums:
             self.lower + float(pieces.lower @ pieces.area),
             self.upper + float(pieces.upper @ pieces.area),
             self.error + float(pieces.error.sum()),
-            self.gap + float(pieces.gap.sum()),
+            self.gap + float((pieces.upper - pieces.lower) @ pieces.area),
             self.negative + float(pieces.negative.sum()),
             self.moment + pieces.moment.sum(axis=0),
         )
@@ -254,17 +255,17 @@ def _refined(
         p = points
         lower, upper = certify(faces, p.points, p.distance, p.side, p.slot, p.closest, edges, threshold, other.closed)
         child = _cut(faces, points, edges, area, lower, upper, threshold)
-        pieces = replace(child, error=_error(pieces[wanted], child))
+        pieces = replace(child, error=_error(pieces.part[wanted], child))
     return settled.with_(pieces)
 
 
-def _error(parent: _Pieces, child: _Pieces) -> Float[np.ndarray, " k"]:
-    """Estimated error of the linear cut in each quarter [m^2].
+def _error(parent: Float[np.ndarray, " p"], child: _Pieces) -> Float[np.ndarray, " k"]:
+    """Estimated error of the linear cut in each quarter [m^2], given the cuts of the parents.
 
     A second-order cut that moved by x when the edges were halved is off by x / 3. A cut that leaves a quarter whole or
     empty does not move when an iso-line bulges into it: there a share of what is not certain counts.
     """
-    moved = np.abs(child.part.reshape(-1, 4).sum(axis=1) - parent.part) / 3.0
+    moved = np.abs(child.part.reshape(-1, 4).sum(axis=1) - parent) / 3.0
     blind = (child.part <= 0.0) | (child.part >= child.area)
     return np.asarray(np.where(blind, BLIND * child.gap, np.minimum(np.repeat(0.25 * moved, 4), child.gap)))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -57,12 +57,14 @@ class Distances:
     undecided: int = 0
 
     def __getitem__(self, chosen: np.ndarray) -> Distances:
-        return replace(self, **{name: values[chosen] for name, values in self._arrays().items()})
+        at = np.flatnonzero(chosen) if chosen.dtype == bool else chosen
+        some = {name: values.take(at, axis=0) for name, values in self._arrays().items()}
+        return Distances(**some, undecided=self.undecided)
 
     def __add__(self, other: Distances) -> Distances:
         more = other._arrays()
         joined = {name: np.concatenate([values, more[name]]) for name, values in self._arrays().items()}
-        return replace(self, **joined, undecided=self.undecided + other.undecided)
+        return Distances(**joined, undecided=self.undecided + other.undecided)
 
     def _arrays(self) -> dict[str, Any]:
         names = ("points", "distance", "side", "slot", "closest", "across")

@@ -102,12 +102,14 @@ def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
 def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     slack = ROUND * (e0 + e1 + e2 + threshold)
     outside = threshold + slack
-    lower = _surely_within(v, p, found, threshold - slack)
-    if lower >= 1.0:
-        return 1.0, 1.0
     # the part certainly farther than T: linear interpolation of d^2 above T^2 + q
     need = (outside * outside + _circle2(e0, e1, e2)) * (1.0 + ROUND)
     f0, f1, f2 = need - d[0] * d[0], need - d[1] * d[1], need - d[2] * d[2]
+    if max(f0, max(f1, f2)) < 0.0 and (not signed or min(s[0], min(s[1], s[2])) > 0):
+        return 0.0, 0.0
+    lower = _surely_within(v, p, found, threshold - slack)
+    if lower >= 1.0:
+        return 1.0, 1.0
     beyond = fraction_below(f0, f1, f2)
     if beyond > 0.0:
         inside = signed and ((f0 < 0.0 and s[0] < 0) or (f1 < 0.0 and s[1] < 0) or (f2 < 0.0 and s[2] < 0))
@@ -122,14 +124,21 @@ def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
 @inner
 def _surely_within(v, p, found, threshold):
     best = 0.0
-    over = np.empty(3)
+    far2 = np.empty(3)
+    most2 = threshold * threshold if threshold > 0.0 else 0.0
     for j in range(3):
         if not found[j]:
             continue
         for i in range(3):
             x, y, z = v[i, 0] - p[j, 0], v[i, 1] - p[j, 1], v[i, 2] - p[j, 2]
-            over[i] = np.sqrt(x**2 + y**2 + z**2) - threshold
-        best = max(best, fraction_below(over[0], over[1], over[2]))
+            far2[i] = x * x + y * y + z * z
+        if max(far2[0], max(far2[1], far2[2])) <= most2:
+            return 1.0
+        if min(far2[0], min(far2[1], far2[2])) <= most2:
+            share = fraction_below(
+                np.sqrt(far2[0]) - threshold, np.sqrt(far2[1]) - threshold, np.sqrt(far2[2]) - threshold
+            )
+            best = max(best, share)
     return best
 
 

@@ -135,7 +135,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     lengths opposite to each corner. signed is infinite beyond a point's limit, and such a point is outside by more than
     any edge at it. place (m,) is the place of each slot. With `use` the rise over the planes of faces counts. above
     (m,) holds it for each slot with the radius `reach` beyond its triangle, NaN where it has not been asked for; where
-    above is empty it is found anew for each face, with no larger radius than that face needs.
+    that is not enough, or above is empty, it is found anew for each face, with no larger radius than that face needs.
     """
     leaves = tree.leaves
     keep = np.empty(len(faces), np.int64)
@@ -143,6 +143,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     count = 0
     v = np.empty((3, 3))
     far = np.empty((3, 3))
+    own, alike = np.empty(3, np.int64), np.empty(3, np.int64)
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if max(signed[i], max(signed[j], signed[k])) == np.inf:
@@ -155,23 +156,29 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
             for x in range(3):
                 v[c, x] = points[faces[f, c], x]
         for c in range(3):
-            s = slot[faces[f, c]]
-            for corner in range(3):
-                far[c, corner] = np.inf if s < 0 else _to_triangle(leaves, place[s], v, corner)
-        low = max(low, -_farthest(far))
-        for c in range(3):
-            s = slot[faces[f, c]]
-            if s < 0 or low >= bar or not use or (c > 0 and s == slot[i]) or (c > 1 and s == slot[j]):
+            s = own[c] = slot[faces[f, c]]
+            alike[c] = 0 if c > 0 and s == own[0] else (1 if c > 1 and s == own[1] else -1)
+            if len(above) == 0 or s < 0 or low >= bar or not use or alike[c] >= 0:
                 continue  # a plane that two corners share says the same twice
-            if len(above) == 0:
-                margin = MARGIN * max(e0, max(e1, e2))
-                low = max(low, _over_plane_nearby(tree, place[s], margin, v, signed[i], signed[j], signed[k], bar))
-                continue
             cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
             radius = reach + size_of(leaves, place[s])
             if np.isnan(above[s]):
                 above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, use)
             low = max(low, _over_plane(cx, cy, cz, nx, ny, nz, above[s], radius, v))
+        if low >= bar:
+            continue
+        for c in range(3):
+            for corner in range(3):
+                if alike[c] >= 0:
+                    far[c, corner] = far[alike[c], corner]
+                else:
+                    far[c, corner] = np.inf if own[c] < 0 else _to_triangle(leaves, place[own[c]], v, corner)
+        low = max(low, -_farthest(far))
+        margin = MARGIN * max(e0, max(e1, e2))
+        for c in range(3):
+            if low < bar and use and own[c] >= 0 and alike[c] < 0:
+                at = place[own[c]]
+                low = max(low, _over_plane_nearby(tree, at, margin, v, signed[i], signed[j], signed[k], bar))
         if low < bar:
             keep[count] = f
             floors[count] = low
@@ -198,6 +205,8 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
         h = dx * nx + dy * ny + dz * nz
         radius = max(radius, np.sqrt(dx * dx + dy * dy + dz * dz) + abs(h))
         lowest = min(lowest, h)
+    if lowest < bar:  # the face itself is as high as its plane
+        return -np.inf
     radius += margin
     rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius, min(radius, lowest - bar))
     low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
