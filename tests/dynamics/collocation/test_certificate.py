@@ -10,6 +10,8 @@ from casadi import SX, Function
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from geocontact.dynamics.collocation import transcription
+from geocontact.dynamics.collocation.blocks import BlockFunctions, block_functions
 from geocontact.dynamics.collocation.certificate import (
     Certificate,
     CertificateLimits,
@@ -230,3 +232,23 @@ def test_tangents_are_those_of_scipy_s_simulations(swung) -> None:
         x = motion.states[k, 0, :4]
         columns = [(after(x + h) - after(x - h)) / 2e-5 for h in 1e-5 * np.eye(4)]
         np.testing.assert_allclose(found[k], np.stack(columns, axis=1), atol=2e-6)
+
+
+def test_derivatives_are_taken_once_for_all_meshes(swung, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of intervals, starts and ends; with other points, or of another problem, they are taken anew."""
+    made = []
+
+    def counted(*expressions: SX) -> BlockFunctions:
+        made.append(expressions)
+        return block_functions(*expressions)
+
+    monkeypatch.setattr(transcription, "block_functions", counted)
+    problem = replace(swung[0])
+    coarse = solve(problem, SolverOptions("radau", 3, 5))
+    assert len(made) == 3
+    again = solve(problem, SolverOptions("radau", 3, 10), warm=coarse)
+    assert len(made) == 3 and len(again.meshes[0]) == 11
+    fresh = solve(replace(problem), SolverOptions("radau", 3, 10))
+    assert len(made) == 6 and again.objective == pytest.approx(fresh.objective, rel=1e-7)
+    solve(problem, SolverOptions("radau", 2, 5))
+    assert len(made) == 9
