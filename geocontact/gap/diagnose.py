@@ -17,11 +17,10 @@ from geocontact.data.diagnosis import (
     DataErrorFound,
     Diagnosis,
     Estimate,
-    HeldOut,
     Partial,
-    Ranked,
     Where,
 )
+from geocontact.data.diagnosis_evidence import HeldOut, Ranked
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
