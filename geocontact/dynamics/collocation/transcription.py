@@ -189,7 +189,7 @@ class Transcription:
         return result
 
     def _functions(self, of: str, make: Callable[[], tuple[SX, SX, SX, SX]]) -> BlockFunctions:
-        """Of variables, data, cost and constraints: derived once for the problem, its points and scales.
+        """Functions of a block, derived once for the problem, its points and scales.
 
         They are the same on all meshes, and to derive them takes as long as several iterations.
         """
