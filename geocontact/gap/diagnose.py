@@ -195,7 +195,7 @@ def findings(case: GapCase, found: Attribution, began: float, version: str = "",
 def settled(
     found: Attribution, errors: RawInputErrors
 ) -> tuple[Attribution, RawInputErrors, dict[str, ChannelBudget], Partial | None, tuple[Unmodelled, ...]]:
-    """As `budgeted`, after what no effect is was described beside the answer, which may only have imitated it."""
+    """The answer of `budgeted`, or of one withdrawn that only imitates what is described beside it without a model."""
     found, errors, budget, part = budgeted(found, errors)
     beside = unmodelled(found, errors, budget)
     if found.answer.effects and imitated(beside, errors, found.problem):
