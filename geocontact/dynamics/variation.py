@@ -76,6 +76,20 @@ class Variation:
                 s[k + 1] = turn[k - first] @ s[k] + gain[k - first]
         return s
 
+    def tangents(
+        self,
+        times: Float[np.ndarray, " n1"],
+        x: Float[np.ndarray, "m x"],
+        w: Float[np.ndarray, "m w"],
+        p: Float[np.ndarray, " p"],
+    ) -> Float[np.ndarray, "n x x"]:
+        """Derivatives of the state at each interval's end by that at its start; given as for `along`."""
+        count, lasting, found = len(x) // 2, np.diff(times), []
+        for first in range(0, count, CHUNK):
+            chosen = slice(2 * first, 2 * min(first + CHUNK, count))
+            found.append(_carried(lasting[first : first + CHUNK], *self._at(x[chosen], w[chosen], p))[0])
+        return np.concatenate(found)
+
     def _at(
         self, x: Float[np.ndarray, "m x"], w: Float[np.ndarray, "m w"], p: Float[np.ndarray, " p"]
     ) -> tuple[Float[np.ndarray, "m x x"], Float[np.ndarray, "m x k"]]:
@@ -101,7 +115,8 @@ def _carried(
 ) -> tuple[Float[np.ndarray, "n x x"], Float[np.ndarray, "n x k"]]:
     """What S at an interval's start is multiplied by, and what is added, to be that at its end."""
     size, columns = slope.shape[1], push.shape[2]
-    of, by = slope.reshape(-1, 2, size, size), push.reshape(-1, 2, size, columns)
+    count = len(lasting)
+    of, by = slope.reshape(count, 2, size, size), push.reshape(count, 2, size, columns)
     weights = lasting[:, None, None] * np.array(WEIGHTS)
     matrix = np.einsum("nij,njab->niajb", -weights, of).reshape(len(of), 2 * size, 2 * size)
     matrix += np.eye(2 * size)

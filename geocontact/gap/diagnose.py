@@ -17,11 +17,11 @@ from geocontact.data.diagnosis import (
     DataErrorFound,
     Diagnosis,
     Estimate,
-    HeldOut,
     Partial,
-    Ranked,
+    Unmodelled,
     Where,
 )
+from geocontact.data.diagnosis_evidence import HeldOut, Ranked
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell, SurfaceGap
 from geocontact.effects.catalogue import candidates
@@ -148,20 +148,9 @@ def findings(
     """
     found, errors = confirmed(case, found, at)
     at("what the error consists of")
-    found, errors, budget, part = budgeted(found, errors)
-    beside = unmodelled(found, errors, budget)
-    if found.answer.effects and imitated(beside, errors, found.problem):
-        found, part = withdrawn(found), None
-        errors = errors_of(found)
-        budget = _budget(found, errors)
-        found = replace(found, answer=by_budget(found, budget, errors))
-        beside = unmodelled(found, errors, budget)
-    if any(one.kind != ZERO for one in beside):
-        found = replace(found, answer=with_gap(found.answer))
-    found = replace(found, answer=with_lapses(found.answer, found.offered))
+    found, errors, budget, part, beside = settled(found, errors)
     said, problem = found.answer, found.problem
-    named = is_named(said)
-    chosen = said.chosen.judged
+    named, chosen = is_named(said), said.chosen.judged
     offered = candidates(found.clean.system)
     at("what would be invisible")
     hidden = non_identifiable(found.clean, offered, said.effects)
@@ -174,19 +163,8 @@ def findings(
     as_came = cells if found.data_error is None else gap_map(problem, base_contender(problem).judged)
     curves = held_out(problem, errors, named)
     gap = _gaps(found, errors, named, curves, budget)
-    stages = {one.name: one.stage for one in offered}
-    stage = stages.get(said.effects[0], "") if said.effects else ""
     after = chosen if named else None
-    surface = () if said.verdict == "no_gap" else on_surface(problem, after, found.data_error, case.cells)
-    held = {one.channel: CellsHeld(one.holding, len(one.ids), *one.held, one.p_value) for one in surface}
-    where = (
-        ()
-        if said.verdict == "no_gap"
-        else tuple(
-            Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel))
-            for w in windows(problem, found.clean, found.base.judged, after, found.data_error, as_came)
-        )
-    )
+    where, surface = ((), ()) if said.verdict == "no_gap" else _places(case, found, after, as_came)
     diagnosis = Diagnosis(
         case=case.name,
         system=case.system,
@@ -214,6 +192,36 @@ def findings(
     )
     trials = leave_one_out(found.clean, found.base.judged, chosen) if named else ()
     return Findings(diagnosis, found, cells, curves, ranking(found, said.probabilities), trials, surface)
+
+
+def settled(
+    found: Attribution, errors: RawInputErrors
+) -> tuple[Attribution, RawInputErrors, dict[str, ChannelBudget], Partial | None, tuple[Unmodelled, ...]]:
+    """The answer of `budgeted`, or of one withdrawn that only imitates what is described beside it without a model."""
+    found, errors, budget, part = budgeted(found, errors)
+    beside = unmodelled(found, errors, budget)
+    if found.answer.effects and imitated(beside, errors, found.problem):
+        found, part = withdrawn(found), None
+        errors = errors_of(found)
+        budget = _budget(found, errors)
+        found = replace(found, answer=by_budget(found, budget, errors))
+        beside = unmodelled(found, errors, budget)
+    if any(one.kind != ZERO for one in beside):
+        found = replace(found, answer=with_gap(found.answer))
+    found = replace(found, answer=with_lapses(found.answer, found.offered))
+    return found, errors, budget, part, beside
+
+
+def _places(
+    case: GapCase, found: Attribution, after: Judged | None, as_came: Sequence[Cell]
+) -> tuple[tuple[Where, ...], tuple[SurfaceGap, ...]]:
+    """Windows of each channel's gap, with the cells of a mat that hold it, and where on the mat they are."""
+    surface = on_surface(found.problem, after, found.data_error, case.cells)
+    held = {one.channel: CellsHeld(one.holding, len(one.ids), *one.held, one.p_value) for one in surface}
+    named = found.answer.effects
+    stage = {one.name: one.stage for one in candidates(found.clean.system)}.get(named[0], "") if named else ""
+    seen = windows(found.problem, found.clean, found.base.judged, after, found.data_error, as_came)
+    return tuple(Where(w.channel, w.phase, w.share, w.p_value, stage, held.get(w.channel)) for w in seen), surface
 
 
 def is_named(said: Answer) -> bool:

@@ -24,13 +24,12 @@ from geocontact.gap.reduction.repeats import shared
 from geocontact.gap.selection.evidence import Judged
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.gap.selection.verdict import Answer
+from geocontact.gap.slips import share_of_time, slip_of
 from geocontact.gap.unmodelled import (
     AnswerResiduals,
     loads_by_place,
     lost_samples,
     regions,
-    share_of_time,
-    slip_of,
     wandering_zero,
 )
 from geocontact.systems.catalogue import system_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geocontact.data.diagnosis import Ranked
+from geocontact.data.diagnosis_evidence import Ranked
 
 ODDS = (
     "Evidence is in nats: with 3 nats the data are e³ = 20 times as probable under the one model as under the other, "

@@ -17,15 +17,58 @@ if TYPE_CHECKING:
     from casadi import DM, MX, SX, Function
 
 
+@dataclass(frozen=True, eq=False)
+class BlockFunctions:
+    """A piece of a problem and its derivatives, at one place.
+
+    Parameters
+    ----------
+    rows
+        How many constraints it has.
+    value, gradient, jacobian
+        (variables, data) to cost and constraints, slope of the cost, entries of the constraints' first derivatives.
+    hessian
+        (variables, data, multipliers) to entries of the Lagrangian's second derivatives, upper half.
+    patterns
+        Rows and columns of both kinds of entries.
+    """
+
+    rows: int
+    value: Function
+    gradient: Function
+    jacobian: Function
+    hessian: Function
+    patterns: tuple[Int[np.ndarray, "2 _"], Int[np.ndarray, "2 _"]]
+
+
+def block_functions(variables: SX, data: SX, cost: SX, constraints: SX) -> BlockFunctions:
+    """Functions of expressions of the problem's variables and of numbers of each place."""
+    from casadi import SX, Function, densify, gradient, hessian, jacobian, triu
+
+    rows = constraints.numel()
+    multipliers = SX.sym("multipliers", 1 + rows)
+    lagrangian = multipliers[0] * cost + (multipliers[1:].T @ constraints if rows else 0.0)
+    by = jacobian(constraints, variables)
+    twice = triu(hessian(lagrangian, variables)[0])
+    first, second = (np.array(each.sparsity().get_triplet(), int) for each in (by, twice))
+    given = [variables, data]
+    return BlockFunctions(
+        rows,
+        Function("value", given, [densify(cost), densify(constraints)]),
+        Function("gradient", given, [densify(gradient(cost, variables))]),
+        Function("jacobian", given, [_nonzeros(by)]),
+        Function("hessian", [*given, multipliers], [_nonzeros(twice)]),
+        (first, second),
+    )
+
+
 @dataclass(frozen=True)
 class ProgramBlock:
     """A piece of a problem and where it stands.
 
     Parameters
     ----------
-    variables, data
-        Symbols: of the problem's variables, and of numbers of each place.
-    cost, constraints
+    functions
         What it adds to the cost, and what is held between `lower` and `upper`.
     index
         Which of the problem's variables its own are, a column for each place, none twice in a column.
@@ -35,10 +78,7 @@ class ProgramBlock:
         One for each constraint.
     """
 
-    variables: SX
-    data: SX
-    cost: SX
-    constraints: SX
+    functions: BlockFunctions
     index: Int[np.ndarray, "v m"]
     values: Float[np.ndarray, "d m"]
     lower: Float[np.ndarray, " c"]
@@ -138,29 +178,15 @@ class _Piece:
     """A block's functions mapped over its places, of the problem's variables."""
 
     def __init__(self, block: ProgramBlock, z: MX) -> None:
-        from casadi import SX, Function, densify, gradient, hessian, jacobian, triu, vertcat
-
         b = self.block = block
-        self.rows = b.constraints.numel() * b.places
+        self.rows = b.functions.rows * b.places
         self.own = z[b.index.ravel(order="F").tolist()].reshape((b.index.shape[0], b.places))
         self.data: DM | Float[np.ndarray, "d m"] = b.values
-        multipliers = SX.sym("multipliers", 1 + b.constraints.numel())
-        lagrangian = multipliers[0] * b.cost + (multipliers[1:].T @ b.constraints if self.rows else 0.0)
-        by = jacobian(b.constraints, b.variables)
-        twice = triu(hessian(lagrangian, b.variables)[0])
-        self.patterns = [tuple(np.array(k, int) for k in each.sparsity().get_triplet()) for each in (by, twice)]
-        given = [b.variables, b.data]
-        outputs = [densify(b.cost), densify(b.constraints)]
-        self._value = Function("value", given, outputs).map(b.places)
-        self._gradient = Function("gradient", given, [densify(gradient(b.cost, b.variables))]).map(b.places)
-        self._jacobian = Function("jacobian", given, [_nonzeros(by)]).map(b.places)
-        self._hessian = Function("hessian", [*given, multipliers], [_nonzeros(twice)]).map(b.places)
-        self._vertcat = vertcat
 
     def value(self) -> tuple[MX, MX]:
         from casadi import sum2, vec
 
-        cost, rows = self._value(self.own, self.data)
+        cost, rows = self.block.functions.value.map(self.block.places)(self.own, self.data)
         return sum2(cost), vec(rows)
 
     def gradient(self, size: int) -> MX:
@@ -168,24 +194,26 @@ class _Piece:
 
         index = self.block.index.ravel(order="F")
         sums = DM.triplet(index.tolist(), list(range(len(index))), DM.ones(len(index)), size, len(index))
-        return mtimes(sums, vec(self._gradient(self.own, self.data)))
+        slope = self.block.functions.gradient.map(self.block.places)
+        return mtimes(sums, vec(slope(self.own, self.data)))
 
     def jacobian(self, first: int) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"], MX]:
         from casadi import vec
 
-        rows, columns = self.patterns[0]
-        each = first + self.block.constraints.numel() * np.arange(self.block.places)
-        where = (rows[:, None] + each).ravel(order="F"), self.block.index[columns].ravel(order="F")
-        return *where, vec(self._jacobian(self.own, self.data))
+        b = self.block
+        rows, columns = b.functions.patterns[0]
+        each = first + b.functions.rows * np.arange(b.places)
+        where = (rows[:, None] + each).ravel(order="F"), b.index[columns].ravel(order="F")
+        return *where, vec(b.functions.jacobian.map(b.places)(self.own, self.data))
 
     def hessian(self, lam_f: MX, lam_g: MX) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"], MX]:
-        from casadi import repmat, vec
+        from casadi import repmat, vec, vertcat
 
         b = self.block
-        own = lam_g.reshape((b.constraints.numel(), b.places))
-        multipliers = self._vertcat(repmat(lam_f, 1, b.places), own)
-        ends = np.stack([b.index[k].ravel(order="F") for k in self.patterns[1]])
-        return ends.min(axis=0), ends.max(axis=0), vec(self._hessian(self.own, self.data, multipliers))
+        multipliers = vertcat(repmat(lam_f, 1, b.places), lam_g.reshape((b.functions.rows, b.places)))
+        ends = np.stack([b.index[k].ravel(order="F") for k in b.functions.patterns[1]])
+        found = b.functions.hessian.map(b.places)(self.own, self.data, multipliers)
+        return ends.min(axis=0), ends.max(axis=0), vec(found)
 
 
 def _nonzeros(matrix: SX) -> SX:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.data.errors import InputError
+from geocontact.dynamics.collocation.blocks import BlockFunctions
 from geocontact.dynamics.symbols import column
 
 if TYPE_CHECKING:
@@ -124,6 +125,8 @@ class ControlProblem:
     scale_path, scale_x, scale_u
         What counts as 1 in each row of the system's path, in each state and in each control; 1 and the largest size
         where the search starts, by default.
+    derived
+        Functions that transcriptions have made of it, for those on other meshes.
     """
 
     system: ControlledSystem
@@ -133,6 +136,7 @@ class ControlProblem:
     scale_path: Vector | None = None
     scale_x: Vector | None = None
     scale_u: Vector | None = None
+    derived: dict[Hashable, BlockFunctions] = field(default_factory=dict, init=False, repr=False, compare=False)
 
 
 def checked(problem: ControlProblem) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from geocontact.dynamics.collocation.blocks import ProgramBlock
+from geocontact.dynamics.collocation.blocks import BlockFunctions, ProgramBlock, block_functions
 from geocontact.dynamics.collocation.motion import CollocatedMotion, Scheme
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem, Course
 from geocontact.dynamics.symbols import residual, scaled
@@ -84,22 +84,13 @@ class Transcription:
 
     def blocks(self) -> list[ProgramBlock]:
         """Intervals, starts, ends and the prior."""
-        from casadi import SX
-
-        s = self.problem.system
         blocks = [self._intervals()]
-        if s.path_at_start:
+        if self.problem.system.path_at_start:
             blocks.append(self._starts())
         ends = np.array([[self.first[k], *range(self.first[k + 1] - self.nx, self.first[k + 1])] for k in self._trials])
-        index = np.vstack([self._parameters(len(ends)), ends.T])
-        local, (p, duration, x) = self._symbols(3)
-        cost = self._of([s.p, s.duration, s.x], [p, duration, x], s.end_cost)
-        cost = cost + self._of([s.p], [p], s.prior) / len(ends)
-        none = np.zeros(0)
-        blocks.append(
-            ProgramBlock(local, SX.sym("none", 0), cost, SX(0, 1), index, np.zeros((0, len(ends))), none, none)
-        )
-        return blocks
+        index, none = np.vstack([self._parameters(len(ends)), ends.T]), np.zeros(0)
+        made = self._functions("ends", self._ends)
+        return [*blocks, ProgramBlock(made, index, np.zeros((0, len(ends))), none, none)]
 
     def bounds(self) -> tuple[Vector, Vector]:
         """Least and greatest of the scaled variables."""
@@ -197,7 +188,27 @@ class Transcription:
         result: SX = function(*values)
         return result
 
-    def _intervals(self) -> ProgramBlock:
+    def _functions(self, of: str, make: Callable[[], tuple[SX, SX, SX, SX]]) -> BlockFunctions:
+        """Functions of a block, derived once for the problem, its points and scales.
+
+        They are the same on all meshes, and to derive them takes as long as several iterations.
+        """
+        sizes = (each.tobytes() for each in (self.scales.x, self.scales.u, self.scales.p, self.scales.path))
+        key, known = (of, self.scheme.kind, self.scheme.degree, *sizes), self.problem.derived
+        if key not in known:
+            known[key] = block_functions(*make())
+        return known[key]
+
+    def _ends(self) -> tuple[SX, SX, SX, SX]:
+        from casadi import SX
+
+        s = self.problem.system
+        local, (p, duration, x) = self._symbols(3)
+        cost = self._of([s.p, s.duration, s.x], [p, duration, x], s.end_cost)
+        cost = cost + self._of([s.p], [p], s.prior) / len(self._trials)
+        return local, SX.sym("none", 0), cost, SX(0, 1)
+
+    def _interval(self) -> tuple[SX, SX, SX, SX]:
         from casadi import SX, horzcat, mtimes, vertcat
 
         s, d, c = self.problem.system, self.scheme.degree, self.scheme
@@ -217,7 +228,10 @@ class Transcription:
             pieces.append(scaled(self._of(symbols, given, s.path), self.scales.path))
             cost = cost + length * c.weights[j] * self._of(symbols, given, s.cost)
         pieces.append(residual(mtimes(every, SX(c.of_states(np.ones(1))[0])), x1, self.scales.x))
-        rows = vertcat(*pieces)
+        return local, data, cost, vertcat(*pieces)
+
+    def _intervals(self) -> ProgramBlock:
+        made = self._functions("interval", self._interval)
         index, values = [], []
         for k, (trial, mesh) in enumerate(zip(self.problem.trials, self.meshes, strict=True)):
             begin = self.first[k] + 1 + self.stride * np.arange(len(mesh) - 1)
@@ -226,10 +240,10 @@ class Transcription:
             points = self._points(mesh)
             w = self._inputs(trial, points.ravel()).reshape(len(points), -1)
             values.append(np.vstack([w.T, np.diff(mesh)]))
-        zero = np.zeros(rows.numel())
-        return ProgramBlock(local, data, cost, rows, np.hstack(index), np.hstack(values), zero, zero)
+        zero = np.zeros(made.rows)
+        return ProgramBlock(made, np.hstack(index), np.hstack(values), zero, zero)
 
-    def _starts(self) -> ProgramBlock:
+    def _start(self) -> tuple[SX, SX, SX, SX]:
         from casadi import SX, mtimes
 
         s, d = self.problem.system, self.scheme.degree
@@ -238,14 +252,17 @@ class Transcription:
         u = inner.reshape((self.nx + self.nu, d))[self.nx :, :]
         at_start = mtimes(u, SX(self.scheme.of_controls(np.zeros(1))[0]))
         path = scaled(self._of([s.x, s.u, s.w, s.p], [x0, at_start, data, p], s.path), self.scales.path)
-        rows = path[list(s.path_at_start), :]
+        return local, data, SX(0), path[list(s.path_at_start), :]
+
+    def _starts(self) -> ProgramBlock:
+        made = self._functions("start", self._start)
         index, values = [], []
         for k, trial in enumerate(self.problem.trials):
             own = self.first[k] + np.arange(1 + self.stride)
             index.append(np.r_[np.arange(self.np), own])
             values.append(self._inputs(trial, np.zeros(1))[0])
-        zero = np.zeros(rows.numel())
-        return ProgramBlock(local, data, SX(0), rows, np.stack(index, 1), np.stack(values, 1), zero, zero)
+        zero = np.zeros(made.rows)
+        return ProgramBlock(made, np.stack(index, 1), np.stack(values, 1), zero, zero)
 
     def _inputs(self, trial: ControlledTrial, fractions: Vector) -> Float[np.ndarray, "t w"]:
         return trial.inputs(trial.begin + trial.guessed_duration * fractions)

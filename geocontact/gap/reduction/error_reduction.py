@@ -30,7 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.diagnosis import HeldOut
+from geocontact.data.diagnosis_evidence import HeldOut
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.data_errors import DataError
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors, misjudged, passed_on, raw_input_errors

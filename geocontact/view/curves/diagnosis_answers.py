@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Float
 
-from geocontact.data.diagnosis import ChannelGap, Ranked
+from geocontact.data.diagnosis import ChannelGap
+from geocontact.data.diagnosis_evidence import Ranked
 from geocontact.view.curves.quantity import Quantity
 from geocontact.view.curves.sheet import number, plain
 from geocontact.view.curves.style import BLACK, DOUBLE, GREY, MARKERS, PALETTE, SINGLE, SMALL, empty, in_style, legend

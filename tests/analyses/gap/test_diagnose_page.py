@@ -25,9 +25,9 @@ from geocontact.data.diagnosis import (
     Diagnosis,
     Estimate,
     Partial,
-    Ranked,
     Where,
 )
+from geocontact.data.diagnosis_evidence import Ranked
 from geocontact.data.gap_case import GapCase
 from geocontact.data.gap_cells import Cell
 from geocontact.gap.budget_verdict import partial

@@ -7,8 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from casadi import SX, Function
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from geocontact.dynamics.collocation import transcription
+from geocontact.dynamics.collocation.blocks import BlockFunctions, block_functions
 from geocontact.dynamics.collocation.certificate import (
     Certificate,
     CertificateLimits,
@@ -205,3 +208,47 @@ def test_growth_of_an_upright_pendulum_is_that_of_its_linear_equation() -> None:
     flow = expm(np.array([[0.0, 1.0], [g / length, 0.0]]))
     assert seen.growth == pytest.approx(np.linalg.norm(flow, 2), rel=1e-3)
     assert seen.converged, seen
+
+
+def test_tangents_are_those_of_scipy_s_simulations(swung) -> None:
+    """Central differences of DOP853 from states that are 1e-5 apart, with the torques of each interval's polynomial."""
+    problem, stepper = swung
+    motion = solve(problem, SolverOptions("radau", 4, 10)).motions[0]
+    again = resimulation(stepper, motion, np.zeros(0), problem.trials[0].inputs, (0, 1))
+    accelerations, points = stepper.equations.accelerations(), motion.scheme.points
+    found = again.tangents()
+    assert found.shape == (10, 4, 4)
+    for k in (0, 4, 9):
+        begin, end = motion.breaks[k : k + 2]
+        torque = [np.polyfit(points, of, len(points) - 1) for of in motion.controls[k, :, 2:].T]
+
+        def rate(t: float, x: np.ndarray, torque=torque, begin=begin, end=end) -> np.ndarray:
+            given = [np.polyval(of, (t - begin) / (end - begin)) for of in torque]
+            return np.r_[x[2:], accelerations(x[:2], x[2:], [], given, []).full().ravel()]
+
+        def after(x: np.ndarray, span=(begin, end), rate=rate) -> np.ndarray:
+            return solve_ivp(rate, span, x, method="DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
+
+        x = motion.states[k, 0, :4]
+        columns = [(after(x + h) - after(x - h)) / 2e-5 for h in 1e-5 * np.eye(4)]
+        np.testing.assert_allclose(found[k], np.stack(columns, axis=1), atol=2e-6)
+
+
+def test_derivatives_are_taken_once_for_all_meshes(swung, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of intervals, starts and ends; with other points, or of another problem, they are taken anew."""
+    made = []
+
+    def counted(*expressions: SX) -> BlockFunctions:
+        made.append(expressions)
+        return block_functions(*expressions)
+
+    monkeypatch.setattr(transcription, "block_functions", counted)
+    problem = replace(swung[0])
+    coarse = solve(problem, SolverOptions("radau", 3, 5))
+    assert len(made) == 3
+    again = solve(problem, SolverOptions("radau", 3, 10), warm=coarse)
+    assert len(made) == 3 and len(again.meshes[0]) == 11
+    fresh = solve(replace(problem), SolverOptions("radau", 3, 10))
+    assert len(made) == 6 and again.objective == pytest.approx(fresh.objective, rel=1e-7)
+    solve(problem, SolverOptions("radau", 2, 5))
+    assert len(made) == 9

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from geocontact.analyses.gap.case import percent
 from geocontact.analyses.gap.diagnose.answer import PART_WORDS, axis_units
 from geocontact.analyses.gap.diagnose.shrinking import axis_words, printed
-from geocontact.data.diagnosis import HeldOut
+from geocontact.data.diagnosis_evidence import HeldOut
 from geocontact.data.motion import Course
 from geocontact.gap.diagnose import Findings
 from geocontact.gap.levels import WORTH_NAMING
