@@ -6,7 +6,10 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+
+from geocontact.geometry.kernels.clip import fraction_below
 
 CUBES = """
 import numpy as np, trimesh, geocontact as gc
@@ -26,3 +29,13 @@ def test_areas_need_no_compiler() -> None:
     done = subprocess.run(command, check=False, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) == pytest.approx(100.0 + 4 * 10.0 * 2.0, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("values", "share"), [((-1, -1, 3), 0.4375), ((-1, 1, 1), 0.25), ((-1, -1, -1), 1.0), ((1, 2, 3), 0.0)]
+)
+def test_share_below_of_arrays_elements(values: tuple[float, ...], share: float) -> None:
+    """By similar triangles: beyond a corner of value 3 beside two of -1 lies (3/4)^2 of the area."""
+    plain = getattr(fraction_below, "py_func", fraction_below)
+    for order in (0, 1, 2):
+        assert plain(*np.roll(np.array(values, float), order)) == pytest.approx(share)

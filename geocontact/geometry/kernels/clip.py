@@ -10,7 +10,7 @@ from geocontact.geometry.kernels.compile import inner, kernel
 @kernel
 def fraction_below(f0, f1, f2):
     """Share of a triangle's area where the linear function with corner values f is <= 0."""
-    below = (f0 <= 0.0) + (f1 <= 0.0) + (f2 <= 0.0)
+    below = int(f0 <= 0.0) + int(f1 <= 0.0) + int(f2 <= 0.0)  # numpy's truths would add up to one
     if below == 0:
         return 0.0
     if below == 3:
