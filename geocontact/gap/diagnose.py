@@ -213,7 +213,7 @@ def settled(
 
 
 def _places(
-    case: GapCase, found: Attribution, after: Judged | None, as_came: Sequence[Cell]
+    case: GapCase, found: Attribution, after: Judged | None, as_came: tuple[Cell, ...]
 ) -> tuple[tuple[Where, ...], tuple[SurfaceGap, ...]]:
     """Windows of each channel's gap, with the cells of a mat that hold it, and where on the mat they are."""
     surface = on_surface(found.problem, after, found.data_error, case.cells)

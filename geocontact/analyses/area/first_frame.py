@@ -161,7 +161,7 @@ class FirstFrame:
         ]
         scene = Scene(bodies, (UNUSED,), (0.0, UNUSED), directions=camera_directions(normal))
         return Page(
-            "Within the threshold", "in blue, on each body", np.zeros(1), "time [s]", sections=(scene,), plays=False
+            "Within the threshold", "coloured, on each body", np.zeros(1), "time [s]", sections=(scene,), plays=False
         )
 
 
