@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,10 +10,12 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
+from geocontact.analyses.frame.collector import say
 from geocontact.analyses.frame.folder import is_inside
 from geocontact.analyses.motion.styles import Cutting
 from geocontact.data.errors import InputError
 from geocontact.io.results import coordinates_of, over_time
+from geocontact.io.text.units import split_header
 from geocontact.study.description import StudyFile
 from geocontact.study.store import Store
 from geocontact.study.trials import CohortTrial
@@ -34,6 +36,8 @@ class StudyCurves:
         With its unit, as in the table.
     names, subjects, conditions
         Of the trials.
+    at
+        Which rows of a table with several for each time were taken: "threshold 2 mm"; "" where there is one.
     """
 
     column: str
@@ -41,6 +45,7 @@ class StudyCurves:
     subjects: tuple[str, ...]
     conditions: tuple[str, ...]
     matrix: Float[np.ndarray, "n 101"]
+    at: str = ""
 
     @property
     def groups(self) -> dict[str, Float[np.ndarray, "_ 101"]]:
@@ -66,7 +71,8 @@ def curves_of(
 ) -> tuple[StudyCurves, ...]:
     """Curves of the columns that [summary] names, or of the first few; none where no table is over time.
 
-    With events a curve is the mean over the gait cycles of its trial, else it is over the whole span.
+    With events a curve is the mean over the gait cycles of its trial, else it is over the whole span. Where a table has
+    several rows for each time, such as thresholds, the first are taken unless `[summary] where` names others, and said.
     """
     name = _named(study) or _first_over_time(done, store)
     if not name:
@@ -77,10 +83,26 @@ def curves_of(
         raise InputError(study.path, "[summary] table", f"no trial has a table {name!r}", "see the folder tables")
     columns = _required(study, files[there[0].name], name)
     recorded = set() if cutting is None else {each.recording for each in cutting.events}
-    values = np.array([_curves(study, files[one.name], columns, cutting, recording_of(one, recorded)) for one in there])
+    found, several = [], dict[str, list[object]]()
+    for one in there:
+        table = pd.read_parquet(files[one.name])
+        chosen = _rows_of(study, table, columns)
+        found.append(_curves(study, table, columns, chosen, cutting, recording_of(one, recorded)))
+        for column in (each for each in chosen or () if len(table[each].unique()) > 1):
+            several.setdefault(column, []).append((chosen or {})[column])
+    values, at = np.array(found), ", ".join(_in_words(*each) for each in several.items())
+    if first := [_in_words(name, used) for name, used in several.items() if name not in study.summary.where]:
+        say(f"curves are at {', '.join(first)}, the first of several values; `where` of [summary] names others")
     subjects, conditions = subjects_of(study, there), conditions_of(study, there)
     names = tuple(trial.name for trial in there)
-    return tuple(StudyCurves(column, names, subjects, conditions, values[:, k]) for k, column in enumerate(columns))
+    return tuple(StudyCurves(each, names, subjects, conditions, values[:, k], at) for k, each in enumerate(columns))
+
+
+def _in_words(column: str, values: Sequence[object]) -> str:
+    """ "threshold 2 mm"; of trials with several values "threshold 1, 2 mm"."""
+    name, unit = split_header(column)
+    known = dict.fromkeys(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
+    return " ".join(part for part in (name, ", ".join(known), unit) if part)
 
 
 def require_summary(study: StudyFile, one: tuple[CohortTrial, str], store: Store, *, alike: bool) -> None:
@@ -140,19 +162,26 @@ def recording_of(trial: CohortTrial, known: Collection[str]) -> str:
     return next((name for name in names if name in known), names[0])
 
 
-def _curves(
-    study: StudyFile, file: Path, columns: Sequence[str], cutting: Cutting | None, recording: str
-) -> Float[np.ndarray, "c 101"]:
-    """Curves of one trial: rows that are chosen, over their span or over the gait cycle."""
+def _rows_of(study: StudyFile, table: pd.DataFrame, columns: Sequence[str]) -> dict[str, object] | None:
+    """Values of columns whose rows make the curves of a trial; None where its table lacks a column."""
     asked = study.summary
-    table = pd.read_parquet(file)
-    missing = next((name for name in (*columns, asked.over, *asked.where) if name not in table.columns), None)
-    if missing is not None:
-        return np.full((len(columns), len(STEPS)), np.nan)
-    chosen = {**_first_of_each(table, asked.over), **asked.where}
-    for name, value in chosen.items():
+    if any(name not in table.columns for name in (*columns, asked.over, *asked.where)):
+        return None
+    return {**_first_of_each(table, asked.over), **asked.where}
+
+
+def _curves(
+    study: StudyFile,
+    table: pd.DataFrame,
+    columns: Sequence[str],
+    chosen: Mapping[str, object] | None,
+    cutting: Cutting | None,
+    recording: str,
+) -> Float[np.ndarray, "c 101"]:
+    """Curves of one trial: rows that are chosen, over their span or over the gait cycle; NaN where there are none."""
+    for name, value in (chosen or {}).items():
         table = table[table[name] == value]
-    at = table[asked.over].to_numpy(float)
+    at = np.empty(0) if chosen is None else table[study.summary.over].to_numpy(float)
     if len(at) < 2 or not (np.diff(at) > 0.0).all():
         return np.full((len(columns), len(STEPS)), np.nan)
     if cutting is not None:

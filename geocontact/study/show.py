@@ -72,7 +72,7 @@ def _panel(one: StudyCurves) -> Curves:
     name, unit = split_header(one.column)
     drawn = [mean_curve(condition, values, k) for k, (condition, values) in enumerate(_drawn(one).items())]
     several = any(len(values) > 1 for values in _drawn(one).values())
-    title = f"{name.replace('_', ' ')} over the cycle"
+    title = f"{name.replace('_', ' ')} over the cycle" + (f", {one.at}" if one.at else "")
     return Curves(f"{title}, mean of the subjects" if several else title, _printed(unit), drawn)
 
 

@@ -184,3 +184,24 @@ def test_what_was_meant_is_of_runs_that_are_there() -> None:
     for file in [one for change in meant.changes for one in change.files]:
         run = file.partition("/")[0]
         assert run in names or "*" in run, file
+
+
+def test_the_page_has_the_kept_comparison() -> None:
+    """Runs without a difference and largest differences of the page are those of the results that are kept."""
+    root = Path(__file__).parents[2]
+    figures = json.loads((root / "benchmarks/results/same_numbers.json").read_text("utf-8"))["figures"]
+    page = (root / "docs/reference/accuracy.md").read_text("utf-8")
+    counts, outcomes = figures["runs"], figures["outcomes"]
+    assert f"{sum(counts.values()) - 1} runs at" in page  # the inputs are no run
+    assert f"; {len(figures['not compared'])} runs, most of" in page
+    assert f"| {counts[BYTE] + counts[EQUAL] - 1} | none |" in page and outcomes["inputs"]["outcome"] == BYTE
+    differ = {run: one["differ"].values() for run, one in outcomes.items() if "differ" in one}
+    most = {run: max(each["of_column"] for each in files) for run, files in differ.items()}
+    shoulders = [f"shoulder_{name}" for name in ("simulate", "half", "study", "compare")]
+    assert max(most[name] for name in shoulders) <= 2e-10 and most["shoulder_led"] <= 0.003
+    areas = [name for name in most if name.startswith(("area", "cohort", "demo"))]
+    assert len(areas) == 7 and len(most) == len(areas) + len(shoulders) + 2
+    for name in areas:
+        for file in differ[name]:
+            before, after = (float(part) for part in file["at"].rpartition(": ")[2].split(" → "))
+            assert file["largest"] <= 5.1e-12 or abs(before - after) <= 2e-15

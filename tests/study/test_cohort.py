@@ -329,6 +329,26 @@ def test_warnings_of_trials_are_those_of_the_study(tmp_path: Path, scheduler: st
     assert done.warnings == kept
 
 
+def test_curves_of_several_thresholds_say_which_is_theirs(tmp_path: Path, scheduler: str) -> None:
+    """A ball of 20 mm, 0.5 mm above a plate: the area below 2 mm is a cap's, 2 pi 20 mm 1.5 mm."""
+    from tests.cli.calls import PLATE, SPHERE, poses
+
+    motion = poses(tmp_path, (0, 20.5, 0), (0, 20.5, 0))
+    text = f'analysis = "area"\n[options]\nmoving = "{SPHERE}"\nfixed = "{PLATE}"\nunit = "mm"\n'
+    text += f'motion = "{motion.name}"\nthreshold = [1, 2]\n[[trials]]\nsubject = "A"\n[summary]\n'
+    text += 'columns = ["area_moving [mm^2]"]\n'
+    for more, at, said in (("", 1.0, True), ('where = { "threshold [mm]" = 2 }\n', 2.0, False)):
+        (tmp_path / "study.toml").write_text(text + more, encoding="utf-8")
+        done = cohort(tmp_path / "study.toml", tmp_path / "out", scheduler)
+        line = "curves are at threshold 1 mm, the first of several values; `where` of [summary] names others"
+        assert done.code == 0 and (line in done.out) == said, done.out + done.err
+        assert done.table("ensemble.csv")["mean"].to_numpy() == pytest.approx(
+            40.0 * np.pi * (at - 0.5), rel=0.07
+        )  # facets
+        page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+        assert f"area moving over the cycle, threshold {at:g} mm" in page
+
+
 def test_warnings_and_fits_of_trials_travel(tmp_path: Path, scheduler: str) -> None:
     """Two warn of two numbers each, one contradicts its data: a line for each kind, and the trials in words."""
     numbers = {"A": "1", "B": "2 contradicts", "C": "3 warns", "D": "4 warns"}
