@@ -52,7 +52,7 @@ def test_areas_are_those_of_the_command_in_its_first_frame(tmp_path: Path) -> No
     """Thresholds from 0 to beyond the slider, distances measured once; with sides and a region."""
     form = Form.of_words(sample("area", tmp_path).words)
     motion = tmp_path / "two.csv"
-    lines = (tmp_path / "sample-files" / "gait_11.csv").read_text("utf-8").splitlines()
+    lines = (sample_folder() / "forms" / "gait_11.csv").read_text("utf-8").splitlines()
     motion.write_text("\n".join(lines[:3]) + "\n", encoding="utf-8")
     form.values |= {"threshold": "4,0,0.3,2.5,25", "region": "ny>0.1", "motion": str(motion)}
     found = asked(form, tmp_path)
@@ -76,7 +76,7 @@ def test_areas_of_pairs_are_those_of_each_pair(tmp_path: Path) -> None:
     form = Form.of_words(sample("pairs", tmp_path).words)
     form.values |= {"threshold": "1.5"}
     found = asked(form, tmp_path, "cm")
-    result = gc.area_pairs(tmp_path / "sample-files" / "knee_pairs.toml", threshold=gc.mm(1.5), rule="clip")
+    result = gc.area_pairs(sample_folder() / "knee_pairs.toml", threshold=gc.mm(1.5), rule="clip")
     result.write(tmp_path / "out")
     lines = found["said"].splitlines()
     for name, line in zip(("medial", "lateral", "patellofemoral"), lines, strict=True):
@@ -131,9 +131,11 @@ def test_what_cannot_be_shown_is_said_in_one_line(tmp_path: Path) -> None:
 
 def test_a_file_that_changes_is_read_anew(tmp_path: Path) -> None:
     form = Form.of_words(sample("area", tmp_path).words)
+    motion = tmp_path / "gait.csv"
+    lines = Path(form.values["motion"]).read_text("utf-8").splitlines()
+    motion.write_text("\n".join(lines), encoding="utf-8")
+    form.values["motion"] = str(motion)
     first = asked(form, tmp_path)["said"]
-    motion = tmp_path / "sample-files" / "gait_11.csv"
-    lines = motion.read_text("utf-8").splitlines()
     motion.write_text("\n".join([lines[0], *lines[3:]]) + "\n", encoding="utf-8")
     found = asked(form, tmp_path)
     assert "frame 1 of 9" in found["about"] and found["said"] != first
