@@ -108,6 +108,21 @@ def test_levels_are_distances_against_a_box_in_closed_form(tmp_path: Path) -> No
         assert np.abs(level - linear).max() <= 1.0
 
 
+def test_bodies_as_stored_have_sides(tmp_path: Path) -> None:
+    """The side of the body is no motion: areas are those of a motion of one frame that leaves the bodies in place."""
+    form = Form.of_words(sample("area", tmp_path).words)
+    form.values["motion"] = ""
+    assert form.values["side"] == "right"
+    found = asked(form, tmp_path)
+    assert found.get("about", "").startswith("as stored, since no motion is filled in: "), found["said"]
+    still = tmp_path / "still.csv"
+    still.write_text("time [s],tx [mm],ty [mm],tz [mm],qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n", encoding="utf-8")
+    form.values["motion"] = str(still)
+    assert asked(form, tmp_path)["said"] == found["said"] and "area_fixed_medial" in found["said"]
+    form.values |= {"motion": "", "rate": "100"}
+    assert "--motion" in asked(form, tmp_path)["said"]  # something is said of a motion that is missing
+
+
 def test_what_cannot_be_shown_is_said_in_one_line(tmp_path: Path) -> None:
     """A mesh that is missing or is not there, a unit that is missing or wrong, a threshold that is none."""
     form = Form.of_words(sample("area", tmp_path).words)
