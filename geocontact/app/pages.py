@@ -122,9 +122,12 @@ class Shared:
             raise HTTPException(507, str(error.strerror)) from error
 
     def _moved(self, arrived: Path) -> str:
-        """Where it lies from now on: beside the folder that it arrived in, or in a numbered one."""
-        folder = arrived.parent.parent
-        places = (folder, *(folder / str(k) for k in range(2, MOST_OF_A_NAME)))
+        """Where it lies from now on: beside the folder that it arrived in, or in a numbered one.
+
+        What has a number for a name lies in a numbered one too: what comes later would else be put into it.
+        """
+        folder, number = arrived.parent.parent, arrived.name.isdecimal()
+        places = (folder / str(k) if k else folder for k in (0, *range(2, MOST_OF_A_NAME))[number:])
         place = next(each for each in places if not (each / arrived.name).exists())
         place.mkdir(exist_ok=True)
         return str(arrived.replace(place / arrived.name))
