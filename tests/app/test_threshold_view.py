@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import csv
+import json
 import re
 import warnings
 from base64 import b64decode
@@ -12,16 +14,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from nicegui import Client, run
+from nicegui.page import page
 
 import geocontact as gc
+from geocontact.analyses.frame.file_content import Content
 from geocontact.app import within
+from geocontact.app.faces import Found
 from geocontact.app.fields import Form, fields_of
+from geocontact.app.file_view import FileView
+from geocontact.app.files import contents, known_file
+from geocontact.app.form_view import FormView
+from geocontact.app.picture import chooser
 from geocontact.app.samples import sample
-from geocontact.app.threshold_view import threshold_of
+from geocontact.app.threshold_view import ThresholdView, threshold_of
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import Window
 from tests.app.test_surface_view import marked_pixels
 from tests.app.test_window import COMMANDS, run_words, until
+from tests.browsers import awaited
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -160,6 +171,52 @@ def test_forms_with_the_picture_declare_a_threshold_and_bodies() -> None:
     shown = {command for command in COMMANDS if threshold_of(Form(command))}
     assert shown == {"area", "pairs"}
     assert any(one.name == "threshold" for one in fields_of("modulus"))  # of areas that were computed: no surfaces
+
+
+async def _while_an_answer_lasts(form: Form, view: FileView, picture: ThresholdView, last: Path) -> None:
+    """Eight places of a slider and a file come while the first answer is awaited."""
+    first = asyncio.ensure_future(picture.show())
+    await asyncio.sleep(0.05)
+    looks = []
+    for k in range(8):
+        form.values["threshold"] = f"{k}"
+        looks += [asyncio.ensure_future(each) for each in (picture.colour(), view.look())]
+        await asyncio.sleep(0.005)
+    await asyncio.gather(first, *looks)
+    form.values["threshold"] = "8"
+    asking = asyncio.ensure_future(view.look())
+    await asyncio.sleep(0.05)
+    form.values["moving"] = str(last)
+    await view.look()
+    await asking
+
+
+def test_what_a_slider_was_moved_over_is_not_asked_and_files_are_looked_at(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    questions: list[str] = []
+
+    async def slowly(called: Any, what: Any) -> Any:
+        await asyncio.sleep(0.2)
+        return [Content(kind=path.name) for path in what] if called is contents else called(what)
+
+    def answer(asked: dict[str, Any]) -> Found:
+        questions.append(json.loads(asked["filled"])["values"]["threshold"])
+        return Found("", {"within": []}, page="page", thresholds=[1e-3])
+
+    monkeypatch.setattr("geocontact.app.elements.below_home", str)  # no request
+    monkeypatch.setattr(chooser, "ask", answer)
+    monkeypatch.setattr(run, "io_bound", slowly)
+    client = Client(page(""), request=None)
+    monkeypatch.setattr(client, "run_javascript", lambda script: script)
+    form = Form.of_words(sample("area", tmp_path).words)
+    with client.content:
+        view = FileView(FormView(form, "up", lambda: None), tmp_path, tmp_path, str, "up")
+        view.look_at_all()
+        last = Path(str(form.values["fixed"]))
+        awaited(_while_an_answer_lasts(form, view, view._pictures["threshold"][0], last))
+    assert questions[0] == "4" and questions[-3:-1] == ["7", "8"] and len(questions) <= 5, questions
+    assert view._shown["moving"] == (known_file(last),)
 
 
 def said(tab: Page) -> str:
