@@ -104,9 +104,9 @@ class Shared:
                     with place.open("xb") as kept:
                         while isinstance(file, UploadFile) and (piece := await file.read(PIECE)):
                             kept.write(piece)
-            found = [each for each in part.iterdir() if each.is_dir()]
-            if len(found) != 1:
-                raise HTTPException(422, "it holds no files")
+            found = [*part.iterdir()]
+            if len(found) != 1 or not found[0].is_dir():
+                raise HTTPException(422, "it is not one folder" if found else "it holds no files")
             return self._moved(found[0])
 
     @contextmanager
@@ -147,7 +147,7 @@ def _parts(name: str) -> list[str]:
     parts = name.split("/")
     signs = "\0\\:" if os.name == "nt" else "\0\\"
     if any(part in ("", ".", "..") or any(sign in part for sign in signs) for part in parts):
-        raise HTTPException(404)
+        raise HTTPException(404, f"no file here can be called {parts[-1]}")
     return parts
 
 
