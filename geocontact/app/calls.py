@@ -11,7 +11,7 @@ from typing import Any
 from cyclopts import CycloptsError
 
 from geocontact.analyses.catalogue import entry_of
-from geocontact.analyses.frame.options import declared
+from geocontact.analyses.frame.options import Options, declared
 from geocontact.app.fields import BEFORE, PROGRAM, Form
 from geocontact.cli.command import FORMS, command_of, spelling
 from geocontact.cli.folders import OUT, calls_in_folder
@@ -24,6 +24,23 @@ HELP = f"; see {PROGRAM} "
 WIDTH = 100
 WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite=False"}
 """Arguments of `Result.write`."""
+
+
+def read(words: Sequence[str], command: str) -> Options:
+    """Options of a call, read as the command line reads them.
+
+    Raises
+    ------
+    CycloptsError, InputError
+        As the command line does.
+    """
+    return _bound(words, command)[0]
+
+
+def _bound(words: Sequence[str], command: str) -> tuple[Options, dict[str, Any]]:
+    """Options of a call, and all that was typed by its name."""
+    _, bound, _ = app.parse_args(list(words), exit_on_error=False, print_error=False)
+    return command_of(entry_of(command)).read(*bound.args, **bound.kwargs), bound.kwargs
 
 
 def _calls(words: Sequence[str]) -> dict[str, list[str]]:
@@ -83,8 +100,7 @@ def python_lines(words: Sequence[str], command: str, out: Path | str) -> str:
 
 def _one_call(words: Sequence[str], command: str, out: Path | str) -> str:
     entry = entry_of(command)
-    _, bound, _ = app.parse_args(list(words), exit_on_error=False, print_error=False)
-    options, typed = command_of(entry).read(*bound.args, **bound.kwargs), bound.kwargs
+    options, typed = _bound(words, command)
     if not entry.exported or (entry.many and options.given("many")):
         return ""
     call = ".".join(part for part in ("gc", entry.room, entry.name) if part)

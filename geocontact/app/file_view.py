@@ -43,7 +43,7 @@ class FileView:
         self._places: dict[str, Element] = {}
         self._shown: dict[str, tuple[Known, ...]] = dict.fromkeys(self._rows, ())
         self._known: dict[Known, Content] = {}
-        self._at_work = False
+        self._at_work = self._due = False
         self._anew = False
         threshold = threshold_of(self.form)
         for row in view.rows:
@@ -60,14 +60,17 @@ class FileView:
 
         Nothing is read before a field for files was changed by hand.
         """
+        self._due = True
         if self._at_work:
             return
         self._at_work = True
         try:
-            if self._anew or any(row.touched for row in self._rows.values()):
-                await self._follow()
-            for picture in [each for some in self._pictures.values() for each in some]:
-                await picture.colour()
+            while self._due:  # an answer for a picture may last: files come meanwhile
+                self._due = False
+                if self._anew or any(row.touched for row in self._rows.values()):
+                    await self._follow()
+                for picture in [each for some in self._pictures.values() for each in some]:
+                    await picture.colour()
         finally:
             self._at_work = False
 

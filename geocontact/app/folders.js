@@ -30,15 +30,15 @@
     if (chosen.length) take(e.target, chosen[0][0].split('/')[0], chosen);
   }, true);
   addEventListener('drop', e => {
-    const folders = [...e.dataTransfer.items].map(item => item.webkitGetAsEntry?.()).filter(entry => entry?.isDirectory);
-    if (!folders.length) return;
+    const dropped = [...e.dataTransfer.items].map(item => item.webkitGetAsEntry?.()).filter(Boolean);
+    if (!dropped.some(each => each.isDirectory)) return;
     e.preventDefault();
     e.stopPropagation();
     const row = e.target.closest?.('.field'), input = document.querySelector('input[webkitdirectory]');
     row?.classList.remove('over');
     const at = row ?? input?.closest('.field');
-    const why = !input || input.disabled ? 'this form takes files here' : folders.length > 1 ? 'drop one folder' : '';
-    if (why && at) say(at, `${folders.map(each => each.name).join(', ')} was not taken: ${why}`);
-    else if (!why) take(input, folders[0].name, files(folders[0]));
+    const why = !input || input.disabled ? 'this form takes files here' : dropped.length > 1 ? 'drop one folder' : '';
+    if (why && at) say(at, `${dropped.map(each => each.name).join(', ')} was not taken: ${why}`);
+    else if (!why) take(input, dropped[0].name, files(dropped[0]));
   }, true);
 }

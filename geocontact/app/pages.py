@@ -104,9 +104,9 @@ class Shared:
                     with place.open("xb") as kept:
                         while isinstance(file, UploadFile) and (piece := await file.read(PIECE)):
                             kept.write(piece)
-            found = [each for each in part.iterdir() if each.is_dir()]
-            if len(found) != 1:
-                raise HTTPException(422, "it holds no files")
+            found = [*part.iterdir()]
+            if len(found) != 1 or not found[0].is_dir():
+                raise HTTPException(422, "it is not one folder" if found else "it holds no files")
             return self._moved(found[0])
 
     @contextmanager
@@ -122,9 +122,12 @@ class Shared:
             raise HTTPException(507, str(error.strerror)) from error
 
     def _moved(self, arrived: Path) -> str:
-        """Where it lies from now on: beside the folder that it arrived in, or in a numbered one."""
-        folder = arrived.parent.parent
-        places = (folder, *(folder / str(k) for k in range(2, MOST_OF_A_NAME)))
+        """Where it lies from now on: beside the folder that it arrived in, or in a numbered one.
+
+        What has a number for a name lies in a numbered one too: what comes later would else be put into it.
+        """
+        folder, number = arrived.parent.parent, arrived.name.isdecimal()
+        places = (folder / str(k) if k else folder for k in (0, *range(2, MOST_OF_A_NAME))[number:])
         place = next(each for each in places if not (each / arrived.name).exists())
         place.mkdir(exist_ok=True)
         return str(arrived.replace(place / arrived.name))
@@ -144,7 +147,7 @@ def _parts(name: str) -> list[str]:
     parts = name.split("/")
     signs = "\0\\:" if os.name == "nt" else "\0\\"
     if any(part in ("", ".", "..") or any(sign in part for sign in signs) for part in parts):
-        raise HTTPException(404)
+        raise HTTPException(404, f"no file here can be called {parts[-1]}")
     return parts
 
 

@@ -34,6 +34,7 @@ class FormPicture(ABC):
     def __init__(self, label: str) -> None:
         self._frame: Any = None
         self._asked: dict[str, Any] | None = None
+        self._at_work = False
         button = text("button", "show in 3-D", type="button", aria_label=label)
         self._said = text("span", "", "why", role="status")
         self._place = element("div", "picture")
@@ -52,14 +53,23 @@ class FormPicture(ABC):
         """Show the answer."""
 
     async def colour(self) -> None:
-        """Ask, and show the answer, until the form says nothing else than before."""
-        while (asked := self.question()) is not None and asked != self._asked:
-            self._asked = asked
-            found = await aside.io_bound(chooser.ask, asked)
-            if self._place.is_deleted or found is None:
-                return
-            if asked == self._asked and self.question() is not None:
-                self.take(found)
+        """Ask, and show the answer, until the form says nothing else than before; one question at a time.
+
+        While one is answered a slider moves on: what it was moved over is not asked.
+        """
+        if self._at_work:
+            return
+        self._at_work = True
+        try:
+            while (asked := self.question()) is not None and asked != self._asked:
+                self._asked = asked
+                found = await aside.io_bound(chooser.ask, asked)
+                if self._place.is_deleted or found is None:
+                    return
+                if asked == self._asked and self.question() is not None:
+                    self.take(found)
+        finally:
+            self._at_work = False
 
     def clear(self) -> None:
         """Take the picture away."""

@@ -29,7 +29,7 @@ REACH = 0.02
 """Distances are measured this far [m], so that thresholds to there need no others; farther where one is larger."""
 AS_STORED = Path(__file__).with_name("as_stored.csv")
 """A motion of one frame that leaves the bodies where their files have them."""
-MOTION = "motion"
+MOTION, SIDE = "motion", "side"
 
 _last: list[tuple[Options, str, tuple[Known | None, ...], Any, str]] = []
 """Options, folder and files of the bodies that are kept, these, and their page."""
@@ -66,10 +66,10 @@ def answer(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def _moves(form: Form) -> bool:
-    """Whether the form says how the bodies move, or has no field for it."""
+    """Whether the form says how the bodies move, or has no field for it; the side of the body says what is medial."""
     motion = next((one for one in form.fields if one.name == MOTION), None)
     return motion is None or any(
-        form.value(one) for one in form.fields if one.one.section == motion.one.section and not one.one.required
+        form.value(one) for one in form.fields if one.one.section == motion.one.section and one.name != SIDE
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import csv
+import json
 import re
 import warnings
 from base64 import b64decode
@@ -12,16 +14,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from nicegui import Client, run
+from nicegui.page import page
 
 import geocontact as gc
+from geocontact.analyses.frame.file_content import Content
 from geocontact.app import within
+from geocontact.app.faces import Found
 from geocontact.app.fields import Form, fields_of
+from geocontact.app.file_view import FileView
+from geocontact.app.files import contents, known_file
+from geocontact.app.form_view import FormView
+from geocontact.app.picture import chooser
 from geocontact.app.samples import sample
-from geocontact.app.threshold_view import threshold_of
+from geocontact.app.threshold_view import ThresholdView, threshold_of
 from geocontact.cli.demo import sample_folder
 from tests.app.conftest import Window
 from tests.app.test_surface_view import marked_pixels
 from tests.app.test_window import COMMANDS, run_words, until
+from tests.browsers import awaited
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -52,7 +63,7 @@ def test_areas_are_those_of_the_command_in_its_first_frame(tmp_path: Path) -> No
     """Thresholds from 0 to beyond the slider, distances measured once; with sides and a region."""
     form = Form.of_words(sample("area", tmp_path).words)
     motion = tmp_path / "two.csv"
-    lines = (tmp_path / "sample-files" / "gait_11.csv").read_text("utf-8").splitlines()
+    lines = (sample_folder() / "forms" / "gait_11.csv").read_text("utf-8").splitlines()
     motion.write_text("\n".join(lines[:3]) + "\n", encoding="utf-8")
     form.values |= {"threshold": "4,0,0.3,2.5,25", "region": "ny>0.1", "motion": str(motion)}
     found = asked(form, tmp_path)
@@ -76,7 +87,7 @@ def test_areas_of_pairs_are_those_of_each_pair(tmp_path: Path) -> None:
     form = Form.of_words(sample("pairs", tmp_path).words)
     form.values |= {"threshold": "1.5"}
     found = asked(form, tmp_path, "cm")
-    result = gc.area_pairs(tmp_path / "sample-files" / "knee_pairs.toml", threshold=gc.mm(1.5), rule="clip")
+    result = gc.area_pairs(sample_folder() / "knee_pairs.toml", threshold=gc.mm(1.5), rule="clip")
     result.write(tmp_path / "out")
     lines = found["said"].splitlines()
     for name, line in zip(("medial", "lateral", "patellofemoral"), lines, strict=True):
@@ -108,6 +119,21 @@ def test_levels_are_distances_against_a_box_in_closed_form(tmp_path: Path) -> No
         assert np.abs(level - linear).max() <= 1.0
 
 
+def test_bodies_as_stored_have_sides(tmp_path: Path) -> None:
+    """The side of the body is no motion: areas are those of a motion of one frame that leaves the bodies in place."""
+    form = Form.of_words(sample("area", tmp_path).words)
+    form.values["motion"] = ""
+    assert form.values["side"] == "right"
+    found = asked(form, tmp_path)
+    assert found.get("about", "").startswith("as stored, since no motion is filled in: "), found["said"]
+    still = tmp_path / "still.csv"
+    still.write_text("time [s],tx [mm],ty [mm],tz [mm],qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n", encoding="utf-8")
+    form.values["motion"] = str(still)
+    assert asked(form, tmp_path)["said"] == found["said"] and "area_fixed_medial" in found["said"]
+    form.values |= {"motion": "", "rate": "100"}
+    assert "--motion" in asked(form, tmp_path)["said"]  # something is said of a motion that is missing
+
+
 def test_what_cannot_be_shown_is_said_in_one_line(tmp_path: Path) -> None:
     """A mesh that is missing or is not there, a unit that is missing or wrong, a threshold that is none."""
     form = Form.of_words(sample("area", tmp_path).words)
@@ -131,9 +157,11 @@ def test_what_cannot_be_shown_is_said_in_one_line(tmp_path: Path) -> None:
 
 def test_a_file_that_changes_is_read_anew(tmp_path: Path) -> None:
     form = Form.of_words(sample("area", tmp_path).words)
+    motion = tmp_path / "gait.csv"
+    lines = Path(form.values["motion"]).read_text("utf-8").splitlines()
+    motion.write_text("\n".join(lines), encoding="utf-8")
+    form.values["motion"] = str(motion)
     first = asked(form, tmp_path)["said"]
-    motion = tmp_path / "sample-files" / "gait_11.csv"
-    lines = motion.read_text("utf-8").splitlines()
     motion.write_text("\n".join([lines[0], *lines[3:]]) + "\n", encoding="utf-8")
     found = asked(form, tmp_path)
     assert "frame 1 of 9" in found["about"] and found["said"] != first
@@ -143,6 +171,52 @@ def test_forms_with_the_picture_declare_a_threshold_and_bodies() -> None:
     shown = {command for command in COMMANDS if threshold_of(Form(command))}
     assert shown == {"area", "pairs"}
     assert any(one.name == "threshold" for one in fields_of("modulus"))  # of areas that were computed: no surfaces
+
+
+async def _while_an_answer_lasts(form: Form, view: FileView, picture: ThresholdView, last: Path) -> None:
+    """Eight places of a slider and a file come while the first answer is awaited."""
+    first = asyncio.ensure_future(picture.show())
+    await asyncio.sleep(0.05)
+    looks = []
+    for k in range(8):
+        form.values["threshold"] = f"{k}"
+        looks += [asyncio.ensure_future(each) for each in (picture.colour(), view.look())]
+        await asyncio.sleep(0.005)
+    await asyncio.gather(first, *looks)
+    form.values["threshold"] = "8"
+    asking = asyncio.ensure_future(view.look())
+    await asyncio.sleep(0.05)
+    form.values["moving"] = str(last)
+    await view.look()
+    await asking
+
+
+def test_what_a_slider_was_moved_over_is_not_asked_and_files_are_looked_at(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    questions: list[str] = []
+
+    async def slowly(called: Any, what: Any) -> Any:
+        await asyncio.sleep(0.2)
+        return [Content(kind=path.name) for path in what] if called is contents else called(what)
+
+    def answer(asked: dict[str, Any]) -> Found:
+        questions.append(json.loads(asked["filled"])["values"]["threshold"])
+        return Found("", {"within": []}, page="page", thresholds=[1e-3])
+
+    monkeypatch.setattr("geocontact.app.elements.below_home", str)  # no request
+    monkeypatch.setattr(chooser, "ask", answer)
+    monkeypatch.setattr(run, "io_bound", slowly)
+    client = Client(page(""), request=None)
+    monkeypatch.setattr(client, "run_javascript", lambda script: script)
+    form = Form.of_words(sample("area", tmp_path).words)
+    with client.content:
+        view = FileView(FormView(form, "up", lambda: None), tmp_path, tmp_path, str, "up")
+        view.look_at_all()
+        last = Path(str(form.values["fixed"]))
+        awaited(_while_an_answer_lasts(form, view, view._pictures["threshold"][0], last))
+    assert questions[0] == "4" and questions[-3:-1] == ["7", "8"] and len(questions) <= 5, questions
+    assert view._shown["moving"] == (known_file(last),)
 
 
 def said(tab: Page) -> str:

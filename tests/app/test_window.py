@@ -556,6 +556,7 @@ def test_a_folder_that_is_not_taken_says_why(window: Window, tmp_path: Path) -> 
     for form, field, names, why in (
         ("ik", "markers", ("one", "two"), "one, two was not taken: drop one folder"),
         ("ik", "markers", ("empty",), "empty was not taken: it holds no files; type its path"),
+        ("ik", "markers", ("one", "one/a.trc"), "one, a.trc was not taken: drop one folder"),
         ("fit", "mesh", ("one",), "one was not taken: this form takes files here"),
     ):
         tab = window.tab(f"form/{form}")
@@ -574,11 +575,29 @@ def test_no_file_of_a_folder_is_written_outside_of_it(window: Window) -> None:
     before = {*window.folder.parent.rglob("*")}
     script = """async ([to, names]) => { const data = new FormData();
       for (const name of names) data.append(name, new File(['x'], 'x'));
-      return (await fetch(to + '/folder', { method: 'POST', body: data })).status; }"""
-    for name in ("../a.trc", "s/../../a.trc", "/a.trc", "s//a.trc", "s/..\\a.trc", "t/a.trc"):
-        assert tab.evaluate(script, [address, ["s/b.trc", name]]) in (404, 422), name
+      const answer = await fetch(to + '/folder', { method: 'POST', body: data });
+      return [answer.status, await answer.text()]; }"""
+    for name in ("../a.trc", "s/../../a.trc", "/a.trc", "s//a.trc", "s/..\\a.trc", "t/a.trc", "a.trc"):
+        status, words = tab.evaluate(script, [address, ["s/b.trc", name]])
+        assert status in (404, 422) and ("a.trc" in words or "one folder" in words), (name, words)
     made = {*window.folder.parent.rglob("*")} - before
     assert not [each for each in made if each.is_file()]
+    tab.close()
+
+
+def test_what_comes_later_is_not_put_into_a_folder_with_a_number_for_a_name(window: Window) -> None:
+    """A subject is called 2; files of one name that belong together lie together."""
+    tab = window.tab("form/ik")
+    address = tab.locator("input[webkitdirectory]").get_attribute("data-to")
+    folder = """async to => { const data = new FormData();
+      data.append('2/b.trc', new File(['x'], 'b.trc'));
+      return (await fetch(to + '/folder', { method: 'POST', body: data })).text(); }"""
+    file = "async ([to, name]) => (await fetch(to + '?name=' + name, { method: 'POST', body: name })).text()"
+    subject = Path(str(tab.evaluate(folder, address)))
+    taken = [Path(str(tab.evaluate(file, [address, name]))) for name in ("a.trc", "c.trc", "a.trc", "c.trc", "2")]
+    assert subject.name == "2" and tree(subject) == {"b.trc": b"x"}
+    assert taken[0].parent == taken[1].parent != taken[2].parent == taken[3].parent
+    assert all(each.read_text("utf-8") == each.name for each in taken)
     tab.close()
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from geocontact.analyses.motion.folder_inputs import folder_inputs
 from geocontact.data.errors import InputError
+from geocontact.io.mocap.markers import read_markers
 from geocontact.io.mocap.trc import read_trc
 from geocontact.io.recordings.tool_folder import read_tool_folder
 from tests import legs
@@ -183,6 +184,28 @@ def test_static_trials_are_known_by_name_and_by_standing(leg: Path, tmp_path: Pa
     (root / "P1_walk.trc").rename(root / "static.trc")
     (one,) = folder_inputs("scale", root)
     assert "its name says static, and its markers move" in one.warnings[0]
+
+
+def test_trials_are_read_once_however_often_a_form_asks(
+    leg: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether they stand still; a file that changed is read again."""
+    pairs = (("leg.osim", "leg.osim"), ("walk.trc", "a.trc"), ("still.trc", "b.trc"), ("walk.trc", "c.trc"))
+    root = put(leg, tmp_path / "laboratory", *pairs)
+    files: list[str] = []
+
+    def reading(file: Path, unit: str | None) -> object:
+        files.append(file.name)
+        return read_markers(file, unit)
+
+    monkeypatch.setattr("geocontact.analyses.motion.folder_inputs.read_markers", reading)
+    assert [one.trial for one in folder_inputs("ik", root)] == ["a", "c"]
+    assert [one.trial for one in folder_inputs("ik", root, typed=frozenset({"cutoff"}))] == ["a", "c"]
+    assert files == ["a.trc", "b.trc", "c.trc"]
+    (root / "c.trc").write_bytes((leg / "still.trc").read_bytes())
+    (root / "b.trc").write_bytes((leg / "walk.trc").read_bytes() + b"\n")
+    assert [one.trial for one in folder_inputs("ik", root)] == ["a", "b"]
+    assert files[3:] == ["b.trc", "c.trc"]
 
 
 def test_the_person_is_confronted_with_the_model(leg: Path, tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings as python_warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -213,13 +214,20 @@ def _readable(
         try:
             file = _recording(command, folder, trial)
             if folder.kind == TRIALS and FIRST[command] == "markers":
-                still += [trial] if _stands_still(_read(command, file, c3d_unit)) else []
+                now = file.stat()
+                still += [trial] if _stood(command, file, c3d_unit, now.st_mtime_ns, now.st_size) else []
         except InputError as error:
             refusals[trial.name] = error
     if len(refusals) == len(found.trials):
         raise next(iter(refusals.values()))
     found.notes.extend(f"trial {name} is left out: {error}" for name, error in refusals.items())
     return [t for t in found.trials if t.name not in refusals], still
+
+
+@lru_cache(maxsize=1000)
+def _stood(command: str, file: Path, c3d_unit: str | None, _changed: int, _size: int) -> bool:
+    """Whether markers of a file stand still; read once, since a form asks after each key."""
+    return _stands_still(_read(command, file, c3d_unit))
 
 
 def _read(command: str, file: Path, c3d_unit: str | None) -> MarkerTrajectories:
