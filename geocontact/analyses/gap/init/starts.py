@@ -44,7 +44,7 @@ def shipped_model(
     Raises
     ------
     InputError
-        Tables or numbers that it needs are missing, all of them by name, or it takes no table of such a name.
+        Tables or numbers that it needs are missing, all of them by name, or it takes none of such a name.
     """
     needs = base.needs
     if needs is None:
@@ -55,6 +55,9 @@ def shipped_model(
     except ValueError as error:
         raise InputError("", "`table`", str(error), "correct the table") from error
     given = shared_numbers(starts, case)
+    if unknown := [name for name in given if name not in needed and name not in needs.per_trial]:
+        every = ", ".join((*needed, *(f"<trial>.{name}" for name in needs.per_trial)))
+        raise InputError("", "`number`", f"{base.name} has no number {unknown[0]}", f"it has {every}")
     lacking = [f"{name} [{unit}]" for name, unit in needed.items() if name not in given]
     for each in (*case.calibration, *case.evaluation):
         lacking += [f"{each.name}.{own}" for own in needs.per_trial if own not in given and own not in each.covariates]
