@@ -36,7 +36,7 @@ from geocontact.analyses.gap.init.options import InitOptions
 from geocontact.analyses.gap.init.settings import NOISE_ASKED, NUMBERS_ASKED, settings_text
 from geocontact.analyses.gap.init.show import init_page
 from geocontact.analyses.gap.init.simulator import FoundSimulator, found_simulator
-from geocontact.analyses.gap.init.starts import shared_numbers, trial_numbers
+from geocontact.analyses.gap.init.starts import require_trial_numbers, shared_numbers, trial_numbers
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
@@ -175,7 +175,9 @@ def run(case: GapCase, o: InitOptions) -> InitResult:
     units = dict(zip(signals.channels, signals.units, strict=True))
     found = found_simulator(o, units, case)
     _require_channels(found, units, o)
-    first = first_run(found, case, shared_numbers(o.number, case), o.simulator)
+    shared = shared_numbers(o.number, case)
+    require_trial_numbers(case, {*shared, *(p.name for p in found.declared)})
+    first = first_run(found, case, shared, o.simulator)
     found = _with_memory(found, first, units)
     questions = (*found.questions, *_asked(case, found, first))
     sides = [", ".join(f"{n} [{units[n]}]" for n in names) for names in (first.system.inputs, first.system.outputs)]
