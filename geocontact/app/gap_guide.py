@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import run as aside
 from nicegui import ui
@@ -33,7 +33,9 @@ from geocontact.app.gap_files import (
 from geocontact.app.gap_questions import QuestionTable, StartTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
-from geocontact.systems.base import Base, CaseNeeds
+
+if TYPE_CHECKING:
+    from geocontact.systems.base import Base, CaseNeeds
 
 OWN = ""
 CASE = "case.toml"

@@ -71,6 +71,13 @@ def test_channels_of_a_model_stand_with_their_units() -> None:
     assert set(models()) == {base.name for base in SYSTEMS}
 
 
+def test_the_window_starts_without_the_models() -> None:
+    """Nor what compiles them; only this page needs them, to list them."""
+    program = "import geocontact.app.pages, sys; print('numba' in sys.modules or 'geocontact.systems' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
 def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
     files = strut_trials(tmp_path / "raw", 2)
     assert columns_of(files) == ([("knee", "deg"), ("load", ""), ("idle", "")], [])
