@@ -169,6 +169,8 @@ class GapGuide:
         if needs is not None and channels and len(self._tables()) == len(needs.tables):
             units, wrong = await aside.io_bound(numbers_of, *asked[:3]) or ({}, "")
             units = units | {f"{trial}.{name}": "-" for trial in trials for name in needs.per_trial if units}
+        if self._place_starts.is_deleted:
+            return
         self._said_first.text = wrong
         self._place_starts.clear()
         with self._place_starts:

@@ -182,6 +182,27 @@ def test_what_is_gone_between_two_steps_is_said_in_one_line(tmp_path: Path) -> N
     assert run.message == "it ended with code -11 and no message"
 
 
+def test_numbers_that_come_after_the_page_was_left_are_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its elements are gone by then."""
+    guide = GapGuide.__new__(GapGuide)
+    client = Client(page(""), request=None)
+    with client.content:
+        place = Element("div")
+    columns = SimpleNamespace(channels=lambda: ["flexion"])
+    vars(guide).update(queue=None, _asked=None, _filled={"model": "knee", "trials": ""}, _columns=columns)
+    vars(guide).update(_needs=models()["knee"][1], _typed_starts={}, _starts=None, _place_starts=place)
+    said = SimpleNamespace(text="")
+    guide._said_first = said
+
+    def left(*_: object) -> tuple[dict[str, str], str]:
+        client.delete()
+        return {"R": "m"}, "wrong"
+
+    monkeypatch.setattr("geocontact.app.gap_guide.numbers_of", left)
+    awaited(guide._ask_numbers())
+    assert guide._starts is None and said.text == ""
+
+
 def test_only_the_run_that_was_asked_for_last_is_said_and_asked_about(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
