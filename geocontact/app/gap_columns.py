@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from geocontact.analyses.frame.quantities import UNITS, is_known
 from geocontact.analyses.gap.chosen_columns import si_of
 from geocontact.app.elements import choice, element, text
 from geocontact.app.form_view import VALUE
-from geocontact.systems.base import Base
+
+if TYPE_CHECKING:
+    from geocontact.systems.base import Base
 
 INPUT, OUTPUT = "input", "output"
 

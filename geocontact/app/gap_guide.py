@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import run as aside
 from nicegui import ui
@@ -33,7 +33,9 @@ from geocontact.app.gap_files import (
 from geocontact.app.gap_questions import QuestionTable, StartTable
 from geocontact.app.runs import Queue, Run
 from geocontact.app.workplace import LOOK, RunPanel
-from geocontact.systems.base import Base, CaseNeeds
+
+if TYPE_CHECKING:
+    from geocontact.systems.base import Base, CaseNeeds
 
 OWN = ""
 CASE = "case.toml"
@@ -57,6 +59,7 @@ class GapGuide:
         self._filled: dict[str, str] = {"model": OWN, "simulator": "", "trials": "", "numbers": ""}
         self._panels: dict[int, RunPanel] = {}
         self._first: Run | None = None
+        self._diagnosed: Run | None = None
         self._simulated, self._outputs = Path(), dict[str, str]()
         self._base: Base | None = None
         self._needs: CaseNeeds | None = None
@@ -166,6 +169,8 @@ class GapGuide:
         if needs is not None and channels and len(self._tables()) == len(needs.tables):
             units, wrong = await aside.io_bound(numbers_of, *asked[:3]) or ({}, "")
             units = units | {f"{trial}.{name}": "-" for trial in trials for name in needs.per_trial if units}
+        if self._place_starts.is_deleted:
+            return
         self._said_first.text = wrong
         self._place_starts.clear()
         with self._place_starts:
@@ -214,7 +219,7 @@ class GapGuide:
             return
         self._place_questions.clear()
         self._questions = None
-        self._simulated, self._outputs = file, outputs
+        self._simulated, self._outputs, self._diagnosed = file, outputs, None
         self._first = self._queued(form, self._out)
 
     def _queued(self, form: Form, out: Path, modules: tuple[Path, ...] = ()) -> Run:
@@ -227,21 +232,26 @@ class GapGuide:
         for run in [panel.run for panel in self._panels.values() if panel.refresh()]:
             for k, (name, address) in enumerate(run.pages.items()):
                 self.show(name, address, beside=k > 0)
-            if run is self._first and run.state == "done":
-                await self._ask(run.out)
-            if run.message:
-                (self._said_first if run is self._first else self._said_case).text = run.message
+            if run is self._first:
+                self._said_first.text = run.message or self._said_first.text
+                if run.state == "done":
+                    await self._ask(run.out)
+            elif run is self._diagnosed:
+                self._said_case.text = run.message or self._said_case.text
         await self._ask_numbers()
 
     async def _ask(self, case: Path) -> None:
         """The questions that a begun case leaves."""
+        asked = self._first
         settings, wrong = await aside.io_bound(settings_of, case) or ({}, "")
-        if self._place_questions.is_deleted:
+        if self._place_questions.is_deleted or self._first is not asked:
             return
         modules: tuple[Path, ...] = ()
         imported = ":" in settings.get("system", "")  # a simulator of the user's own that Python imports
         if imported and not (wrong := unreadable(self._simulated)):
             modules = await aside.io_bound(own_modules, case, self._simulated, self._files) or ()
+        if self._first is not asked:  # the trials are simulated anew meanwhile
+            return
         if wrong or not settings:
             self._said_first.text = wrong
             return
@@ -269,7 +279,7 @@ class GapGuide:
             self._said_case.text = wrong
         elif await self._write(case):
             form = Form("gap diagnose", {"case": str(case), "run_simulator": system == "command"})
-            self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), modules)
+            self._diagnosed = self._queued(form, case.with_name(f"{case.name}-diagnosis-1"), modules)
 
 
 def models() -> dict[str, tuple[Base, CaseNeeds]]:

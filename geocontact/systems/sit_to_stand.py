@@ -190,7 +190,7 @@ def numbers_of(sites: tuple[str, ...]) -> dict[str, str]:
 
 def recorded_sites(names: Collection[str]) -> tuple[str, ...]:
     """Sites with a channel among these names, all where none has."""
-    return tuple(site for site in SITES if any(each.startswith(f"{site}_") for each in names)) or SITES
+    return tuple(site for site in SITES if any(each in names for each in units_of((site,)))) or SITES
 
 
 def measured_forces(loads: Loads) -> Float[np.ndarray, "t c"]:

@@ -71,6 +71,13 @@ def test_channels_of_a_model_stand_with_their_units() -> None:
     assert set(models()) == {base.name for base in SYSTEMS}
 
 
+def test_the_window_starts_without_the_models() -> None:
+    """Nor what compiles them; only this page needs them, to list them."""
+    program = "import geocontact.app.pages, sys; print('numba' in sys.modules or 'geocontact.systems' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
+
+
 def test_columns_are_read_and_written_in_a_process(tmp_path: Path) -> None:
     files = strut_trials(tmp_path / "raw", 2)
     assert columns_of(files) == ([("knee", "deg"), ("load", ""), ("idle", "")], [])
@@ -123,6 +130,7 @@ class Pressed:
             _columns=columns,
             _base=None,
             _needs=None,
+            _first=None,
             _said_first=label,
             _place_questions=label,
             _queued=self._queued,
@@ -174,6 +182,59 @@ def test_what_is_gone_between_two_steps_is_said_in_one_line(tmp_path: Path) -> N
     assert run.message == "it ended with code -11 and no message"
 
 
+def test_numbers_that_come_after_the_page_was_left_are_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its elements are gone by then."""
+    guide = GapGuide.__new__(GapGuide)
+    client = Client(page(""), request=None)
+    with client.content:
+        place = Element("div")
+    columns = SimpleNamespace(channels=lambda: ["flexion"])
+    vars(guide).update(queue=None, _asked=None, _filled={"model": "knee", "trials": ""}, _columns=columns)
+    vars(guide).update(_needs=models()["knee"][1], _typed_starts={}, _starts=None, _place_starts=place)
+    said = SimpleNamespace(text="")
+    guide._said_first = said
+
+    def left(*_: object) -> tuple[dict[str, str], str]:
+        client.delete()
+        return {"R": "m"}, "wrong"
+
+    monkeypatch.setattr("geocontact.app.gap_guide.numbers_of", left)
+    awaited(guide._ask_numbers())
+    assert guide._starts is None and said.text == ""
+
+
+def test_only_the_run_that_was_asked_for_last_is_said_and_asked_about(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Trials are simulated anew before the first run ends, which fails, or while its case is read."""
+    guide = GapGuide.__new__(GapGuide)
+    case = {"system": "knee", "calibration": ["t1"], "evaluation": ["t2"], QUESTIONS: []}
+    older, newer = (SimpleNamespace(pages={}, message="", state="done", out=tmp_path) for _ in range(2))
+    said = SimpleNamespace(text="")
+    panel = SimpleNamespace(run=older, refresh=lambda: True)
+    vars(guide).update(_panels={1: panel}, _first=newer, _diagnosed=None, _said_first=said, _ask_numbers=nothing)
+    older.message, older.state = "it failed", "failed"
+    awaited(guide._look())
+    assert said.text == ""
+    older.message, older.state = "", "done"
+    client = Client(page(""), request=None)
+    with client.content:
+        place = Element("div")
+    vars(guide).update(_first=older, _place_questions=place, _outputs={}, _files=tmp_path)
+
+    def pressed(_: Path) -> tuple[dict[str, object], str]:
+        guide._first = newer
+        return case, ""
+
+    monkeypatch.setattr("geocontact.app.gap_guide.settings_of", pressed)
+    awaited(guide._look())
+    assert list(place) == []
+    monkeypatch.setattr("geocontact.app.gap_guide.settings_of", lambda _: (case, ""))
+    panel.run = newer
+    awaited(guide._look())
+    assert "diagnose" in [each.text for each in client.elements.values() if isinstance(each, TextElement)]
+
+
 def test_a_simulator_with_the_name_of_another_module_is_refused(tmp_path: Path) -> None:
     """`gap init` would run the file, and the diagnosis the module."""
     for name in ("profile", "numpy"):
@@ -192,7 +253,11 @@ def test_all_pages_of_a_run_are_shown() -> None:
     run = SimpleNamespace(pages={"a": "1", "b": "2"}, message="")
     panel = SimpleNamespace(run=run, refresh=lambda: True)
     vars(guide).update(
-        _panels={1: panel}, _first=None, _ask_numbers=nothing, show=lambda *page, beside: shown.append((*page, beside))
+        _panels={1: panel},
+        _first=None,
+        _diagnosed=None,
+        _ask_numbers=nothing,
+        show=lambda *page, beside: shown.append((*page, beside)),
     )
     awaited(guide._look())
     assert shown == [("a", "1", False), ("b", "2", True)]

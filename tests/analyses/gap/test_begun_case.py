@@ -321,6 +321,74 @@ def test_every_model_of_the_package_can_be_begun(name: str, tmp_path: Path) -> N
         assert other.signals.values == pytest.approx(one.signals.values, rel=1e-8, nan_ok=True)
 
 
+def test_what_a_model_does_not_know_is_refused(tmp_path: Path) -> None:
+    """A misspelled number, one of a trial that is not there; a column beside the channels asks for nothing."""
+    case = written("sit_to_stand", tmp_path)
+    numbers = case.constants | {each.name: each.start for each in case.parameters}
+    asked = {"simulator": "sit_to_stand", "data": tmp_path / "trials"}
+    for wrong in ("rho_thig", "t9.level", "t1.level"):
+        with pytest.raises(gc.InputError, match=f"sit_to_stand has no number {wrong}; it has k_n_thigh, rho_thigh, b"):
+            gc.init_gap_case(**asked, number=numbers | {wrong: 1.0})
+    for file in (tmp_path / "trials").glob("*.csv"):
+        head, *rows = file.read_text("utf-8").splitlines()
+        file.write_text("\n".join([f"{head},shank_length [m]", *(f"{row},0.4" for row in rows)]) + "\n", "utf-8")
+    assert gc.init_gap_case(**asked, number=numbers).errors["t1"]["thigh_force"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("numbers", "refusal"),
+    [
+        ({"k": 3.0, "t1.level": 1.0, "level": 2.0}, "level is given for all trials and for t1"),
+        ({"k": 3.0, "t1.level": 1.0, "t3.level": 1.0}, r"needs t2\.level, t4\.level"),
+        ({"k": 3.0, "t2.level": 1.0, "t3.level": 1.0, "t4.level": 1.0}, r"needs t1\.level"),
+        ({"k": 3.0, "level": 2.0, "t1.c": 1.0}, "c is given for all trials and for t1"),
+        ({"k": float("nan")}, "`number`: is k=nan"),
+        ({"t1.level": float("inf")}, r"`number`: is t1\.level=inf"),
+        ({"t1.": 1.0}, r"`number`: is t1\.=1"),
+    ],
+)
+def test_a_number_is_that_of_all_trials_or_of_each(numbers: dict[str, float], refusal: str, tmp_path: Path) -> None:
+    """That of all would be taken without a word; c is declared in the file."""
+    written("sit_to_stand", tmp_path)
+    model = tmp_path / "level_model.py"
+    model.write_text(
+        'import geocontact as gc\nPARAMETERS = (gc.Parameter("c", "N/m", 1.0),)\n'
+        'def run(time, inputs, numbers):\n    return numbers["k"] * numbers["level"] * inputs[0]\n'
+    )
+    asked = {"simulator": str(model), "data": tmp_path / "trials", "outputs": "thigh_force"}
+    with pytest.raises(gc.InputError, match=refusal):
+        gc.init_gap_case(**asked, number=numbers)
+
+
+def test_a_table_is_no_other_key_of_the_case(tmp_path: Path) -> None:
+    """Its name is a key of case.toml and that of a file in the folder."""
+    written("sit_to_stand", tmp_path)
+    (tmp_path / "s.csv").write_text("px [m]\n1\n")
+    model = tmp_path / "no_model.py"
+    model.write_text("def run(time, inputs, numbers):\n    return inputs[0]\n")
+    asked = {"simulator": str(model), "data": tmp_path / "trials", "outputs": "thigh_force"}
+    for name in ("calibration", "system", "trial", "tables", "first_run", "1st"):
+        with pytest.raises(gc.InputError, match=f"`table`: is '{name}="):
+            gc.init_gap_case(**asked, table=(f"{name}={tmp_path / 's.csv'}",))
+    with pytest.raises(gc.InputError, match=r"`table`: names own twice"):
+        gc.init_gap_case(**asked, table=(f"own={tmp_path / 's.csv'}",) * 2)
+
+
+def test_an_answer_in_another_unit_than_the_model_takes_is_refused(tmp_path: Path) -> None:
+    """27 mm would be 27 m: nothing is converted by the unit of a number."""
+    case = written("sit_to_stand", tmp_path / "hand")
+    numbers = case.constants | {each.name: each.start for each in case.parameters}
+    begun = gc.init_gap_case(simulator="sit_to_stand", data=tmp_path / "hand" / "trials", number=numbers)
+    begun.write(tmp_path / "case")
+    said = begun_settings(tmp_path / "case")["parameters"]
+    answers = {name: AnsweredNumber(one["start"], None, None, one["unit"]) for name, one in said.items()}
+    for upper in (None, 50.0):
+        lower = None if upper is None else 1.0
+        answers["rho_thigh"] = AnsweredNumber(20.0, lower, upper, "mm")
+        with pytest.raises(gc.InputError, match=r"parameters.rho_thigh\]: is answered in mm; give it in m"):
+            answer_case(tmp_path / "case", ["t3", "t4"], answers, {})
+
+
 def test_units_of_channels_are_declared_for_all_models() -> None:
     """Those of the built system, for each model whose numbers need no table."""
     for base in SYSTEMS:

@@ -191,6 +191,13 @@ REFUSED = {
     "shape.py": ("def run(time, inputs, numbers):\n    return inputs[0][:-1]\n", r"gave an array \(199,\)"),
     "fails.py": ("def run(time, inputs, numbers):\n    return inputs[7]\n", "fails on trial t1: .*IndexError"),
     "exits.py": ("def run(time, inputs, numbers):\n    raise SystemExit(3)\n", "fails on trial t1: .*SystemExit: 3"),
+    "ends.py": (
+        (
+            "import geocontact as gc\ndef build(*_):\n    raise SystemExit(3)\n"
+            'BASE = gc.Base("ends", ("angle",), ("torque",), build)\n'
+        ),
+        "cannot be built: SystemExit: 3",
+    ),
     "notes.txt": ("hello\n", "neither a .py nor an .fmu file"),
     "zip.fmu": ("hello\n", "is no FMU"),
     "odd.py": ("PARAMETERS = [1]\ndef run(time, inputs, numbers):\n    return inputs[0]\n", "no tuple of gc.Parameter"),

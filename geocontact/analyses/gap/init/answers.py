@@ -74,7 +74,8 @@ def answer_case(
     Raises
     ------
     InputError
-        The case cannot be read with these answers, a number has no answer, or one whose bounds are open has no unit.
+        The case cannot be read with these answers, a number has no answer, one whose bounds are open has no unit, or
+        one of a model of the package another than case.toml says.
     """
     file = folder / SETTINGS
     said = toml_of(file, LARGEST_SETTINGS)
@@ -83,7 +84,7 @@ def answer_case(
     if unknown := [name for name in evaluation if name not in trials]:
         raise InputError(folder, "", f"has no trial {unknown[0]}", f"it has {', '.join(trials)}")
     calibration = [name for name in trials if name not in evaluation]
-    _check_numbers(file, said.get("parameters", {}), numbers)
+    _check_numbers(file, said, numbers)
     sections = _sections(said, numbers, noise)
     answered = "\n".join(_lines(before.decode("utf-8-sig"), calibration, evaluation, sections)) + "\n"
     _check_kept(file, said, answered, sections)
@@ -109,12 +110,17 @@ def _sections(
 
 
 def _check_numbers(file: Path, said: Mapping[str, Any], numbers: Mapping[str, AnsweredNumber]) -> None:
-    """All numbers of the file are answered, with a unit where nobody declared one."""
-    if lacking := [name for name in said if name not in numbers]:
+    """All numbers of the file are answered; in the unit that a model of the package takes, else in any stated one."""
+    listed, asked = said.get("system") in LISTED_SYSTEMS, said.get("parameters", {})
+    if lacking := [name for name in asked if name not in numbers]:
         remedy = "give it with the others, or delete it there"
         raise InputError(file, f"[parameters.{lacking[0]}]", "is not among the numbers that are answered", remedy)
     for name, each in numbers.items():
-        if not each.unit.strip() and said.get(name, {}).get("lower") == json.loads(OPEN):
+        unit, known = each.unit.strip(), asked.get(name, {}).get("unit", "")
+        if listed and known and unit != known:
+            what = f"is answered in {unit or 'no unit'}"
+            raise InputError(file, f"[parameters.{name}]", what, f"give it in {known}; nothing is converted")
+        if not unit and asked.get(name, {}).get("lower") == json.loads(OPEN):
             raise InputError(
                 file, f"[parameters.{name}]", "its unit is missing", 'write it in SI, "-" for a pure number'
             )

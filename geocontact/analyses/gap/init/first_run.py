@@ -105,7 +105,7 @@ def decade(seconds: float) -> float:
 def _built(found: FoundSimulator, parameters: tuple[Parameter, ...], case: GapCase, file: str) -> System:
     try:
         return found.base.build(parameters, {}, case.tables)
-    except Exception as error:  # the user's code may raise anything
+    except (Exception, SystemExit) as error:  # the user's code may raise anything
         remedy = "give its numbers as PARAMETERS or by `number`"
         raise InputError(file, "", f"cannot be built: {said(error)}", remedy) from error
 

@@ -36,12 +36,12 @@ from geocontact.analyses.gap.init.options import InitOptions
 from geocontact.analyses.gap.init.settings import NOISE_ASKED, NUMBERS_ASKED, settings_text
 from geocontact.analyses.gap.init.show import init_page
 from geocontact.analyses.gap.init.simulator import FoundSimulator, found_simulator
-from geocontact.analyses.gap.init.starts import shared_numbers, trial_numbers
+from geocontact.analyses.gap.init.starts import require_trial_numbers, shared_numbers, trial_numbers
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
 from geocontact.data.trial import Trial
-from geocontact.io.cases.case_settings import SETTINGS
+from geocontact.io.cases.case_settings import SETTINGS, CaseSettings
 from geocontact.io.cases.gap_case_writer import trial_table, write_tables
 from geocontact.io.cases.trial_table import alike, read_trial
 from geocontact.io.text.results import CASES
@@ -52,6 +52,9 @@ if TYPE_CHECKING:
 
 FEW = 4
 """Trials from which on two are held out."""
+FIRST_RUN = "first_run"
+_NO_TABLES = {*CaseSettings.model_fields, FIRST_RUN}
+"""Other keys of case.toml and another file of its folder."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -108,7 +111,7 @@ class InitResult(Result):
     def tables(self) -> dict[str, pd.DataFrame]:
         """`first_run`: measured and simulated at the start values; `trials/<id>`: every trial."""
         trials = (*self.case.calibration, *self.case.evaluation)
-        return {"first_run": self._first_run(trials)} | {f"trials/{one.name}": trial_table(one) for one in trials}
+        return {FIRST_RUN: self._first_run(trials)} | {f"trials/{one.name}": trial_table(one) for one in trials}
 
     def _first_run(self, trials: tuple[Trial, ...]) -> pd.DataFrame:
         parts = []
@@ -157,8 +160,10 @@ def _tables(given: Sequence[str]) -> dict[str, pd.DataFrame]:
     found = {}
     for each in given:
         name, equals, path = each.partition("=")
-        if not (name.isidentifier() and equals and path):
-            raise InputError("", "`table`", f"is {each!r}", "write its name and its file: spheres=spheres.csv")
+        if not (name.isidentifier() and equals and path) or name in _NO_TABLES:
+            raise InputError("", "`table`", f"is {each!r}", "write name and file of a table: spheres=spheres.csv")
+        if name in found:
+            raise InputError("", "`table`", f"names {name} twice", "give one file")
         found[name] = read_side_table(Path(path))
         add_input("table", Path(path))
     return found
@@ -170,7 +175,9 @@ def run(case: GapCase, o: InitOptions) -> InitResult:
     units = dict(zip(signals.channels, signals.units, strict=True))
     found = found_simulator(o, units, case)
     _require_channels(found, units, o)
-    first = first_run(found, case, shared_numbers(o.number, case), o.simulator)
+    shared = shared_numbers(o.number, case)
+    require_trial_numbers(case, {*shared, *(p.name for p in found.declared)})
+    first = first_run(found, case, shared, o.simulator)
     found = _with_memory(found, first, units)
     questions = (*found.questions, *_asked(case, found, first))
     sides = [", ".join(f"{n} [{units[n]}]" for n in names) for names in (first.system.inputs, first.system.outputs)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
@@ -14,10 +15,12 @@ from geocontact.systems.catalogue import SYSTEMS
 
 
 def trial_numbers(starts: Mapping[str, float], trials: Collection[str]) -> dict[str, dict[str, float]]:
-    """Numbers that are named after a trial, by trial and name: t01.level=0.5."""
+    """Numbers that are named after a trial, by trial and name: t01.level=0.5; InputError for one that is not finite."""
     found: dict[str, dict[str, float]] = {}
     for name, value in starts.items():
         trial, _, own = name.rpartition(".")
+        if not own or not math.isfinite(value):
+            raise InputError("", "`number`", f"is {name}={value:g}", "write a name and a finite number: k=100")
         if trial in trials:
             found.setdefault(trial, {})[own] = value
     return found
@@ -27,6 +30,19 @@ def shared_numbers(starts: Mapping[str, float], case: GapCase) -> dict[str, floa
     """Numbers that all trials have alike."""
     trials = [one.name for one in (*case.calibration, *case.evaluation)]
     return {name: value for name, value in starts.items() if name.rpartition(".")[0] not in trials}
+
+
+def require_trial_numbers(case: GapCase, shared: Collection[str]) -> None:
+    """Refuse a number that some trials only have, and one that is among those of all trials, which would be taken."""
+    trials = (*case.calibration, *case.evaluation)
+    for name in dict.fromkeys(own for one in trials for own in one.covariates):
+        having = [one.name for one in trials if name in one.covariates]
+        if name in shared:
+            what = f"{name} is given for all trials and for {', '.join(having)}"
+            raise InputError("", "`number`", what, "leave out one of the two")
+        if lacking := [f"{one.name}.{name}" for one in trials if one.name not in having]:
+            what = f"needs {', '.join(lacking)} beside {having[0]}.{name}"
+            raise InputError("", "`number`", what, f"give each, as in {lacking[0]}=1.5")
 
 
 def needed_numbers(model: str, channels: Collection[str], files: Mapping[str, str]) -> dict[str, str]:
@@ -44,7 +60,7 @@ def shipped_model(
     Raises
     ------
     InputError
-        Tables or numbers that it needs are missing, all of them by name, or it takes no table of such a name.
+        Tables or numbers that it needs are missing, all of them by name, or it takes none of such a name.
     """
     needs = base.needs
     if needs is None:
@@ -55,8 +71,14 @@ def shipped_model(
     except ValueError as error:
         raise InputError("", "`table`", str(error), "correct the table") from error
     given = shared_numbers(starts, case)
+    unknown = [name for name in given if name not in needed and name not in needs.per_trial]
+    trials = (*case.calibration, *case.evaluation)
+    unknown += [f"{one.name}.{own}" for one in trials for own in one.covariates if own not in needs.per_trial]
+    if unknown:
+        every = ", ".join((*needed, *(f"<trial>.{name}" for name in needs.per_trial)))
+        raise InputError("", "`number`", f"{base.name} has no number {unknown[0]}", f"it has {every}")
     lacking = [f"{name} [{unit}]" for name, unit in needed.items() if name not in given]
-    for each in (*case.calibration, *case.evaluation):
+    for each in trials:
         lacking += [f"{each.name}.{own}" for own in needs.per_trial if own not in given and own not in each.covariates]
     if lacking:
         what = f"{base.name} needs {', '.join(lacking)}"
