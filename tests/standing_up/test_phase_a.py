@@ -42,7 +42,7 @@ def test_chain_weighs_what_the_subject_weighs() -> None:
 
 
 def test_tangents_hold_where_feet_meet_the_ground() -> None:
-    """A fall from 16 mm at 0.3 m/s without torques: central differences of simulations, before, at and after touching."""
+    """A fall from 16 mm at 0.3 m/s: central differences of simulations, before, at and after touching."""
     stepper, radau = Stepper(feet_on_ground(Subject()).equations), scheme("radau", 4)
     breaks = np.linspace(0.0, 0.07, 8)
     start = np.r_[0.0, 0.111, 0.0, 0.02, -0.02, 0.02], np.r_[0.0, -0.3, np.zeros(4)], np.zeros(0)
