@@ -51,22 +51,36 @@ class Terminal(Listener):
 
     @contextmanager
     def preparing(self) -> Iterator[None]:
-        """Say that kernels are being compiled; nothing where they are loaded from the cache, however long it takes."""
-        from geocontact.geometry.kernels.compile import compilations  # late: --help needs no numba
+        """Say that kernels are being compiled, while they are; nothing where they are loaded, however long it takes."""
+        from numba.core import event  # late: --help needs no numba
 
-        before, done = compilations(), threading.Event()
+        from geocontact.geometry.kernels.compile import compilations
+
+        class Compiling(event.Listener):  # type: ignore[misc, unused-ignore]
+            """How many functions are being compiled, one for another."""
+
+            depth = 0
+
+            def on_start(self, _: event.Event) -> None:
+                self.depth += 1
+
+            def on_end(self, _: event.Event) -> None:
+                self.depth -= 1
+
+        before, done, compiling = compilations(), threading.Event(), Compiling()
 
         def look() -> None:
             wait = SILENCE
             while not done.wait(wait):
-                if compilations() > before:
+                if compiling.depth > 0 and compilations() > before:
                     print(COMPILING, file=sys.stderr, flush=True)
                     return
                 wait = AGAIN
 
         threading.Thread(target=look, daemon=True).start()
         try:
-            yield
+            with event.install_listener("numba:compile", compiling):
+                yield
         finally:
             done.set()
 

@@ -11,6 +11,8 @@ from geocontact.data.errors import InputError
 
 ENTITIES = ("sub", "ses", "task", "acq", "run")
 """Parts of a name in their order; sub and task are needed."""
+LONGEST = 180
+"""Characters of a name: with tracking system and ending its files must stay below the 255 that file systems take."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +30,8 @@ class BidsName:
     @classmethod
     def of(cls, text: str) -> BidsName:
         """The name that sub-P1_task-walk_run-1 stands for; InputError with what is wrong."""
+        if len(text) > LONGEST:
+            raise _wrong(f"has {len(text)} characters, more than {LONGEST}")
         labels: dict[str, str] = {}
         for part in text.split("_"):
             key, _, label = part.partition("-")

@@ -15,9 +15,14 @@ def module_folders() -> list[str]:
 
     The current folder is left out, whoever added it, unless it holds the package: a module of somebody else's that lies
     beside the data is not run. Entries that are no folder, such as those of an editable installation, stay as they are.
+    Of a current folder that was removed nothing is looked for either.
     """
-    here, found = os.path.realpath(os.curdir), []
-    for entry in sys.path:
+    found = []
+    try:
+        here = os.path.realpath(os.curdir)
+    except FileNotFoundError:
+        here = ""
+    for entry in sys.path if here else filter(os.path.isabs, sys.path):
         place = os.path.realpath(entry or os.curdir)
         if place == str(ROOT) or place != here:
             found.append(os.path.abspath(entry or os.curdir) if os.path.exists(place) else entry)

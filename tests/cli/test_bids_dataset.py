@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geocontact.data.bids_name import BidsName
+from geocontact.data.bids_name import LONGEST, BidsName
 from geocontact.data.errors import InputError
 from geocontact.io.motion.bids import BidsChannels, write_bids
 from tests import legs
@@ -117,11 +117,29 @@ def test_uneven_times_are_stated(tmp_path: Path) -> None:
         ("sub-P1_task-walk_run-a", "is not a number"),
         ("sub-P1_task-walk_task-run", "task- is there twice"),
         ("sub-_task-walk", "is not letters and digits"),
+        (f"sub-{'a' * 200}_task-walk", "has 214 characters, more than 180"),
     ],
 )
 def test_names_that_bids_does_not_allow(name: str, what: str) -> None:
     with pytest.raises(InputError, match=what):
         BidsName.of(name)
+
+
+def test_the_longest_name_fits_into_names_of_files() -> None:
+    text = f"sub-{'a' * 60}_ses-1_task-{'b' * 60}_acq-{'c' * 30}_run-1"
+    text += "1" * (LONGEST - len(text))
+    assert len(BidsName.of(text).file("markers", "channels.json")) <= 255
+
+
+def test_one_name_is_not_of_several_trials(tmp_path: Path) -> None:
+    """Datasets of one run twice could not be put together."""
+    _, model, time, values = legs.planted(tmp_path)
+    file = legs.trc_file(tmp_path, legs.markers_of(model, time, values))
+    legs.model_file(tmp_path)
+    file.with_name("walk2.trc").write_bytes(file.read_bytes())
+    refused = call("ik", tmp_path, "--bids", "sub-1_task-walk", "--out", tmp_path / "o")
+    assert refused.code == 2 and "--bids: is of one trial, and there are" in refused.err, refused.err
+    done(call("ik", tmp_path, "--trial", "walk2", "--bids", "sub-1_task-walk", "--out", tmp_path / "o"))
 
 
 def test_one_frame_has_no_rate(tmp_path: Path) -> None:

@@ -9,8 +9,10 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
+from numba.core import event
 
 from geocontact.analyses.area import result as area_analysis
 from geocontact.analyses.area.distance_file import DistanceMaps
@@ -169,7 +171,12 @@ def test_module_and_script_are_the_same_program() -> None:
 def test_compiling_is_announced_when_it_keeps_the_user_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(show, "SILENCE", 0.1)
     evolution = area_analysis.area_evolution
-    slow = lambda *given: (time.sleep(1.0), evolution(*given))[1]  # noqa: E731
+
+    def slow(*given: Any) -> Any:
+        with event.trigger_event("numba:compile"):
+            time.sleep(1.0)
+        return evolution(*given)
+
     monkeypatch.setattr(area_analysis, "area_evolution", slow)
     monkeypatch.setattr("geocontact.geometry.kernels.compile.compilations", itertools.count().__next__)
     result = area(tmp_path / "out", moving=SPHERE, fixed=PLATE, motion=poses(tmp_path, (0, 20, 0)))

@@ -222,3 +222,13 @@ def test_the_caller_keeps_its_own_word(monkeypatch: pytest.MonkeyPatch) -> None:
     with workers.current_folder_closed():
         assert os.environ[workers.SAFE_PATH] == workers.OURS
     assert workers.SAFE_PATH not in os.environ
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a folder that a process is in stays there")
+def test_readers_work_where_the_current_folder_is_gone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "found_module.py").write_text("print('read')")
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    monkeypatch.setattr(sys, "path", ["", str(tmp_path), *sys.path])
+    (tmp_path / "here").rmdir()
+    assert run_apart("found_module", [], 60.0).stdout.decode().strip() == "read"

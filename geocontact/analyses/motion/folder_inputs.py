@@ -148,8 +148,8 @@ def folder_inputs(
 
 
 def _refuse_shared(folder: ToolFolder, trials: Sequence[FolderTrial], typed: frozenset[str]) -> None:
-    """InputError where loads that are typed, which were recorded once, would act in several trials."""
-    once = sorted({"loads", "plates"} & typed)
+    """InputError where loads that are typed, which were recorded once, or the name of a recording are for several."""
+    once = sorted({"loads", "plates", "bids"} & typed)
     if once and len(trials) > 1:
         names = listed(tuple(t.name for t in trials))
         raise InputError(folder.root, f"`{once[0]}`", f"is of one trial, and there are {names}", "choose with `trial`")

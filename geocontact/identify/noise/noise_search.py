@@ -30,7 +30,7 @@ from geocontact.identify.optimise.bounded_gauss_newton import (
 
 FARTHEST = 6.0  # standard deviations of the prior that a level is searched in
 LONGEST = 2.0  # that a correlation time is, and how noise grows: longer, and noise becomes what the model misses
-CURVED = 0.2  # of what was expected, curvature along a step that a secant counts
+CURVED = 0.2  # share of the expected curvature along a step that a secant keeps at least
 
 
 @dataclass(frozen=True)
