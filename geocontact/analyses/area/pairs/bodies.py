@@ -19,6 +19,7 @@ from geocontact.analyses.frame.landmarks import region_kind
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.motion.motion import read_motion
+from geocontact.io.motion.poses import PASS_RATE
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.recordings.contact_pairs import (
@@ -113,8 +114,7 @@ def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, M
     for body in described.bodies:
         found[body.name] = segments.get(body.name)
         if body.motion is not None:
-            unit, rate = described.unit, described.rate
-            motion = read_motion(body.motion, order=described.order, angles=described.angles, unit=unit, rate=rate)
+            motion = _motion_of(described, body.motion, file)
             add_input(f"motion of {body.name}", body.motion, frames=len(motion), source=motion.source)
             found[body.name] = body.motion, motion
             heeded |= motion.heeded
@@ -122,6 +122,18 @@ def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, M
         if getattr(described, key) is not None and key not in heeded:
             raise InputError(file, key, "has no effect here: no motion is read with it", "leave it out")
     return found
+
+
+def _motion_of(described: PairsDescription, motion: Path, file: Path) -> Motion:
+    """Motion of a body; an InputError that asks for `rate` says how the description has it."""
+    unit, rate = described.unit, described.rate
+    try:
+        return read_motion(motion, order=described.order, angles=described.angles, unit=unit, rate=rate)
+    except InputError as error:
+        if error.remedy != PASS_RATE:
+            raise
+        remedy = f'write rate = {{ value = 100, unit = "Hz" }} into {file.name}, above its first [[…]], with the value'
+        raise InputError(error.file, error.place, error.what, f"{remedy} of the recording") from error
 
 
 def _segments(described: PairsDescription, file: Path) -> dict[str, tuple[Path, Motion]]:
