@@ -89,8 +89,8 @@ class TouchingBodies:
         return _rest(self.time).poses if motion is None else motion.poses
 
 
-def read(o: PairsOptions) -> TouchingBodies:
-    """Everything the description names."""
+def read(o: PairsOptions, *, areas: bool = True) -> TouchingBodies:
+    """Everything the description names; `areas` is that of `read_moved`."""
     given = read_pairs(o.description)
     add_input("description", o.description, bodies=len(given.bodies), pairs=len(given.pairs))
     used = {name for pair in given.pairs for name in (pair.moving, pair.fixed)}
@@ -103,7 +103,7 @@ def read(o: PairsOptions) -> TouchingBodies:
         raise InputError(o.description, "[[bodies]]", "no body of a pair moves", "write a motion for one")
     motions = _at_one_clock(described, _motions(described, o.description))
     time = next(motion.time for motion in motions.values() if motion is not None)
-    pairs = tuple(_pair(described, pair, o, motions, time) for pair in described.pairs)
+    pairs = tuple(_pair(described, pair, o, motions, time, areas=areas) for pair in described.pairs)
     return TouchingBodies(pairs, motions, time, given.free)
 
 
@@ -188,6 +188,8 @@ def _pair(
     o: PairsOptions,
     motions: Mapping[str, Motion | None],
     time: Float[np.ndarray, " t"],
+    *,
+    areas: bool,
 ) -> TouchingPair:
     before = len(current().inputs)
     moving, fixed = described.body(pair.moving), described.body(pair.fixed)
@@ -197,7 +199,7 @@ def _pair(
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
     with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
-        bodies = read_moved(asked, lambda _: [(pair.name, motion)])
+        bodies = read_moved(asked, lambda _: [(pair.name, motion)], areas=areas)
     for entry in current().inputs[before:]:
         entry["folder"] = pair.name
     return TouchingPair(pair.name, pair.moving, pair.fixed, asked, bodies)
