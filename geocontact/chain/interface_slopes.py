@@ -117,7 +117,7 @@ def _elastic_slope(
     if directed:
         of_turn = turn * dn[k, 23] - n[23] * flat * side * speed / n[24] ** 2 * dn[k, 24]
         slope += n[0] * taut * stiffer * of_turn
-    return slope
+    return float(slope)
 
 
 @part
@@ -126,9 +126,9 @@ def _beyond_play(
 ) -> float:
     """Derivative of the deflection beyond the play."""
     if taut > 0.0:
-        return du - (n[4] * dplay + n[3] * dplace)
+        return float(du - (n[4] * dplay + n[3] * dplace))
     if taut < 0.0:
-        return du + ((1.0 - n[4]) * dplay - n[3] * dplace)
+        return float(du + ((1.0 - n[4]) * dplay - n[3] * dplace))
     return 0.0 if held else du
 
 
