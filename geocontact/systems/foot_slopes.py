@@ -8,8 +8,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.chain.contact_law import CONTACT_LAW
+from geocontact.chain.interface_slopes import branch_slope, relaxed
 from geocontact.chain.terms import direction_factor
-from geocontact.geometry.kernels.compile import kernel
+from geocontact.geometry.kernels.compile import kernel, part
 
 UNKNOWN = [place for place, name in enumerate(CONTACT_LAW.neutral) if name in ("mu_s", "mu_k", "v_th")]
 """Places of the numbers whose derivatives are not written out: of friction."""
@@ -19,6 +20,17 @@ K, B = 3, 4
 """Rows of a sphere's numbers (`foot.spheres`)."""
 SHALLOWEST = 1e-12
 """Depth that shallower ones count as in a power (`contact.sphere_foot`) [m]."""
+
+
+@part
+def thinning(depth: float, rate: float, cubic: float, n: Float[np.ndarray, " slots"]) -> tuple[float, float, float]:
+    """Share of a damper that depth and rate leave, and the logarithms of both over their references."""
+    log_deep, log_rate = math.log(depth / n[12]), 0.0
+    thinned = cubic * math.pow(depth / n[12], n[11])
+    if rate != 0.0:
+        log_rate = math.log(abs(rate) / n[16])
+        thinned *= math.pow(abs(rate) / n[16], n[15] - 1.0)
+    return thinned, log_deep, log_rate
 
 
 @kernel
@@ -61,20 +73,14 @@ def sphere_slopes(
     stiffer, factor, cubic = 1.0 + n[5] * power, 1.0 + n[8] * turn, onset * onset * (3.0 - 2.0 * onset)
     elastic, loading = k * stiffer * factor * pressed, max(rate, 0.0)
     force = elastic + b * loading * cubic
-    fades, eased, over, branch = 1.0, 0.0, 0.0, 0.0
-    if branched and h > 0.0:
-        fades, eased, over = math.exp(-h / n[14]), math.expm1(-h / n[14]), n[14] / h
+    parts = relaxed(h, n[14]) if branched else (1.0, 0.0, 0.0)
     if branched:
-        branch = old[BRANCH] * fades - n[13] * (elastic - old[ELASTIC]) * over * eased
+        branch = old[BRANCH] * parts[0] - n[13] * (elastic - old[ELASTIC]) * parts[2] * parts[1]
         new[BRANCH], new[ELASTIC] = branch, elastic
         force += branch
     drag = thinned = log_deep = log_rate = 0.0
     if inside and damped:
-        log_deep = math.log(depth / n[12])
-        thinned = cubic * math.pow(depth / n[12], n[11])
-        if rate != 0.0:
-            log_rate = math.log(abs(rate) / n[16])
-            thinned *= math.pow(abs(rate) / n[16], n[15] - 1.0)
+        thinned, log_deep, log_rate = thinning(depth, rate, cubic, n)
         drag = n[10] * rate * thinned
         force += drag
     pushes = inside and force > 0.0
@@ -91,10 +97,9 @@ def sphere_slopes(
         dbranch = 0.0
         if branched:
             rise, drise = elastic - old[ELASTIC], delastic - dold[i, ELASTIC]
-            dbranch = dold[i, BRANCH] * fades - (n[13] * drise + rise * dn[i, 13]) * over * eased
-            if h > 0.0:
-                dbranch += old[BRANCH] * fades * h / n[14] ** 2 * dn[i, 14]
-                dbranch -= n[13] * rise * (eased / h + fades / n[14]) * dn[i, 14]
+            dbranch = branch_slope(
+                h, n[14], n[13], old[BRANCH], rise, parts, dold[i, BRANCH], drise, dn[i, 13], dn[i, 14]
+            )
         dnew[i, BRANCH], dnew[i, ELASTIC] = dbranch, delastic if branched else 0.0
         dforce[i] = 0.0
         if pushes:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import geocontact as gc
+from geocontact.analyses.motion.functional_joint import result
 from geocontact.data.multibody.markers import MarkerTrajectories
 from geocontact.data.multibody.model import Multibody
 from geocontact.io.mocap.trc import read_trc
@@ -136,3 +137,44 @@ def test_an_axis_is_compared_with_the_line_of_two_markers(leg: tuple[Multibody, 
     assert found.sentences[1] == f"the axis is {turn:.1f} deg from the line through femur_r0 and femur_r1"
     assert "halves of the trial give axes 0.0 mm apart" in found.sentences[2]
     assert found.sentences[0].startswith("axis through ") and dict(found.facts())["direction"].count(",") == 2
+
+
+def test_the_rotation_is_the_largest_between_any_two_frames(
+    leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A hinge that swings to either side of its first frame turns by the range of its angle, a hip as all pairs say."""
+    model, values, file = leg
+    time, knee = np.arange(101) / 50.0, [each.name for each in model.coordinates].index("knee")
+    bent = np.repeat(values[:1], len(time), axis=0)
+    bent[:, knee] -= 0.6 * np.sin(np.pi * time)
+    (tmp_path / "bent").mkdir()
+    swing = legs.trc_file(tmp_path / "bent", legs.markers_of(model, time, bent))
+    found = gc.functional_joint(swing, first=FEMUR, second=TIBIA, axis=True)
+    whole, from_first = np.degrees(1.2), np.degrees(0.6)
+    assert found.summary["turn_deg"] == pytest.approx(whole, abs=1e-3) and whole > from_first + 10.0
+    assert f"{whole:.0f} degrees between the two that are turned farthest apart" in found.sentences[1]
+    assert dict(found.facts())["largest rotation between two frames"] == f"{whole:.0f}°"
+    hip = gc.functional_joint(file, first=PELVIS, second=FEMUR)
+    turns = hip.pair.first_poses.rotation.inv() * hip.pair.second_poses.rotation
+    pairs = [float((turn.inv() * turns).magnitude().max()) for turn in turns]
+    assert hip.summary["turn_deg"] == pytest.approx(np.degrees(max(pairs)), rel=1e-9)
+    monkeypatch.setattr(result, "COMPARED", len(turns) // 3)
+    assert 0.97 * max(pairs) < result.turned(hip.pair) <= max(pairs) + 1e-12, "every fourth frame"
+
+
+def test_advice_fits_the_kind_of_joint(leg: tuple[Multibody, np.ndarray, Path], tmp_path: Path) -> None:
+    model, values, _ = leg
+    names = tuple(m.name for m in model.markers)
+    places = model.marker_places(values)
+    slid = 0.06 * np.sin(np.arange(len(places)) / 7.0)[:, None]
+    for name in ("femur_r1", "tibia_r1"):
+        places[:, names.index(name)] += slid
+    file = legs.trc_file(tmp_path, MarkerTrajectories(np.arange(len(places)) / 100.0, places, names))
+    for first, second, axis, fits, not_this in (
+        (FEMUR, TIBIA, True, "bend and stretch the hinge", "a hip"),
+        (PELVIS, FEMUR, False, "a hip forward, sideways and round", "hinge"),
+    ):
+        with pytest.warns(gc.InputWarning) as told:
+            gc.functional_joint(file, first=first, second=second, axis=axis)
+        (line,) = (str(each.message) for each in told if "two halves of the trial give" in str(each.message))
+        assert fits in line and not_this not in line

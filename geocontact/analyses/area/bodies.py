@@ -183,8 +183,13 @@ def read(o: AreaOptions) -> Bodies:
     return read_moved(o, lambda moving: motions_given(o, moving))
 
 
-def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Motion]]]) -> Bodies:
-    """The same with motions, by the names of their sub-folders, that `moved` gives for the surface of MOVING."""
+def read_moved(
+    o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Motion]]], *, areas: bool = True
+) -> Bodies:
+    """The same with motions, by the names of their sub-folders, that `moved` gives for the surface of MOVING.
+
+    `areas` is whether the bodies' areas are written, rather than only what a layer bears.
+    """
     if o.paraview:
         require_pyvista()
     model_to_copy(o)
@@ -202,10 +207,10 @@ def read_moved(o: AreaOptions, moved: Callable[[Surface], Sequence[tuple[str, Mo
     closed = {body: o.assume_closed in (body, "both") for body in ("moving", "fixed")}
     with naming_unit_of_moving(o):
         moving, outer_moving = read_body_and_outer(
-            "moving", o.moving, unit_of_moving(o), o.place_moving, closed["moving"], o.merge_tolerance
+            "moving", o.moving, unit_of_moving(o), o.place_moving, closed["moving"], o.merge_tolerance, areas=areas
         )
     fixed, outer_fixed = read_body_and_outer(
-        "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"], o.merge_tolerance
+        "fixed", o.fixed, o.unit, o.place_fixed, closed["fixed"], o.merge_tolerance, areas=areas
     )
     refuse_two_spaces(moving, fixed)
     beside = (*(Path(each).name for each in o.motion or ()), *(() if o.side is None else (f"`side` {o.side}",)))

@@ -34,15 +34,9 @@ from geocontact.analyses.area.bodies import Bodies, Reference, read
 from geocontact.analyses.area.contact import (
     MotionResult,
     congruence_of,
-    least_distance,
     pressure_error_of,
     pressures_of,
-    refuse_far_apart,
-    say_inner_area,
     tables_of,
-    warn_of_lift_off,
-    warn_of_no_contact,
-    warn_of_overlap,
 )
 from geocontact.analyses.area.cycles import area_trials
 from geocontact.analyses.area.goodness import goodness_of_areas
@@ -50,6 +44,14 @@ from geocontact.analyses.area.literature import beside_literature
 from geocontact.analyses.area.motion_outputs import figure_of, page_of, pressure_figure_of, write_further
 from geocontact.analyses.area.options import AreaOptions, PressureOptions
 from geocontact.analyses.area.page import FRAMES
+from geocontact.analyses.area.separation import (
+    least_distance,
+    refuse_far_apart,
+    say_inner_area,
+    warn_of_lift_off,
+    warn_of_no_contact,
+    warn_of_overlap,
+)
 from geocontact.analyses.frame.collector import current, judge, listener, note, reserve, say
 from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.pages import Thinned

@@ -167,12 +167,12 @@ def read_body(
     assume_closed: bool,
     merge_tolerance: float | None = None,
 ) -> Surface:
-    """Surface of one body in its body frame; warns of what about it needs care.
+    """Surface of one body that is pressed; warns of what about it needs care.
 
     `placement` and `merge_tolerance` are those of `read_input_surface`.
     """
     surface = read_input_surface(role, path, unit, placement, assume_closed, merge_tolerance)
-    _warn_of_sides(role, surface)
+    _warn_of_sides(role, surface, areas=False)
     return surface
 
 
@@ -183,10 +183,15 @@ def read_body_and_outer(
     placement: str | None,
     assume_closed: bool,
     merge_tolerance: float | None = None,
+    *,
+    areas: bool = True,
 ) -> tuple[Surface, UnitedSurface | None]:
-    """The same, and its outer surface where closed surfaces of the file lie inside or across others, not warned of."""
+    """The same, and its outer surface where closed surfaces of the file lie inside or across others, not warned of.
+
+    `areas` is whether signed areas are written of it.
+    """
     surface = _read_surface(role, path, unit, placement, assume_closed, merge_tolerance)
-    _warn_of_sides(role, surface)
+    _warn_of_sides(role, surface, areas=areas)
     return surface, united(surface)
 
 
@@ -342,9 +347,14 @@ def _median_edge(surface: Surface) -> float:
     return round(float(np.median(surface.edge_length)) * 1e3, 4)
 
 
-def _warn_of_sides(role: str, surface: Surface) -> None:
+def _warn_of_sides(role: str, surface: Surface, *, areas: bool) -> None:
+    """Reservations of inside and outside; without areas only MOVING's inside counts, in which layers are pressed."""
     other = {"moving": "area_fixed", "fixed": "area_moving"}[role]
-    if not surface.closed:
+    if not (surface.closed or areas):
+        why = surface.topology.why_open or "it has no closed edge"
+        if role == "moving":
+            reserve(f"{surface.name} is open ({why}): it has no inside, so no force and pressure of it as MOVING")
+    elif not surface.closed:
         why = surface.topology.why_open or "it has no closed edge"
         doubled = f"; its doubled faces alone keep it open: see `assume_closed` {role}"
         reserve(f"{surface.name} is open ({why}): {other} is unsigned{doubled if surface.topology.closed_once else ''}")

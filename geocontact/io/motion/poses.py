@@ -79,6 +79,8 @@ ROUNDED = 1e-4
 """How far off orthonormal a matrix may be without a word: files often have five digits."""
 ROUGH = 2e-2
 """How far it may be with a warning: recorders interpolate entries of matrices, which bends them."""
+PASS_RATE = "pass `rate`, the frames per second in Hz; 1 numbers the frames"
+"""Remedy for rows without times."""
 _SPLIT = re.compile(r"[,;\s]+")
 _COMMENT = "#"
 
@@ -113,8 +115,7 @@ def motion_from_rows(path: str | PathLike[str], unit: str | None, rate: float | 
             "pass `unit`, or name columns in a header: time [s], r11, …, tx [mm], …",
         )
     if rate is None:
-        remedy = "pass `rate`, the frames per second in Hz; 1 numbers the frames"
-        raise InputError(file, "", "rows of poses hold no times", remedy)
+        raise InputError(file, "", "rows of poses hold no times", PASS_RATE)
     values, lines = _read(file)
     matrices = np.zeros((len(values), 4, 4))
     matrices[:, 3, 3] = 1.0

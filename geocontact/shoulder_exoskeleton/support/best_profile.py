@@ -4,7 +4,7 @@ Support is linear in the factors and stays below what is needed, so what is take
 limits on interface force and on the rate of the torque: the optimum is global. For a group: the mean over persons, the
 worst person (minimax), or the mean of the worst share of all cases (conditional value at risk; Rockafellar & Uryasev
 2000, Optimization of conditional value-at-risk, J Risk 2(3):21-41). What is kept in a share of the draws of the model's
-errors only is kept in those in which the optimum does least harm: programs until these draws are the same.
+errors only: `draws_set_aside` chooses which.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import linprog
 
+from geocontact.shoulder_exoskeleton.support.draws_set_aside import Draw, best_kept
 from geocontact.shoulder_exoskeleton.support.outcome import Factors, outcome
 from geocontact.shoulder_exoskeleton.support.profile_limits import (
     Among,
@@ -32,8 +33,6 @@ from geocontact.shoulder_exoskeleton.support.profile_limits import (
 )
 
 Aim = Literal["mean", "worst", "cvar"]
-PROGRAMS = 20
-"""Linear programs until the draws that are set aside must be the same; two or three do."""
 
 
 @dataclass(frozen=True)
@@ -82,17 +81,17 @@ def best_profile(
     if not 0.0 < worst_share <= 1.0:
         raise ValueError(f"a share of {worst_share:g} of the cases is not between 0 and 1")
     nominal, highest = nominal_rows(among, kept), among.highest(kept.caps)
-    found = _solved(among, nominal, highest, aim, worst_share)
-    drawn, chosen = _drawn(among, kept), dict[str, list[int]]()
-    for _ in range(PROGRAMS if drawn else 0):
-        least = {person: mildest(draws, found, kept.certainty) for person, draws in drawn.items()}
-        if least == chosen:
-            break
-        chosen = least
-        bound = [drawn[person][k] for person, places in chosen.items() for k in places]
-        parts = [(rows, np.maximum(most - kept.margin, 0.0)) for rows, most in bound]
-        found = _solved(among, joined([nominal, *parts]), highest, aim, worst_share)
-    return _profile(among, dict(zip(among.keys, found.tolist(), strict=True)), aim, worst_share)
+    drawn = {each: [_less(rows, kept.margin) for rows in of] for each, of in _drawn(among, kept).items()}
+
+    def solve(draws: Sequence[Draw]) -> Float[np.ndarray, " k"]:
+        rows = joined([nominal, *(drawn[each][k] for each, k in draws)]) if draws else nominal
+        return _solved(among, rows, highest, aim, worst_share)
+
+    def profile(found: Float[np.ndarray, " k"]) -> SupportProfile:
+        return _profile(among, dict(zip(among.keys, found.tolist(), strict=True)), aim, worst_share)
+
+    found = solve(())
+    return profile(best_kept(solve, lambda x: profile(x).value, drawn, found, kept.certainty) if drawn else found)
 
 
 def uniform_profile(
@@ -102,7 +101,7 @@ def uniform_profile(
     among, kept = _among(cases), limits or Limits()
     factor = min(_largest(nominal_rows(among, kept)), float(among.highest(kept.caps).min()))
     for draws in _drawn(among, kept).values():
-        each = np.sort([_largest((rows, np.maximum(most - kept.margin, 0.0))) for rows, most in draws])
+        each = np.sort([_largest(_less(rows, kept.margin)) for rows in draws])
         factor = min(factor, float(each[-count_of(draws, kept.certainty)]))
     return _profile(among, dict.fromkeys(among.keys, factor), aim, worst_share)
 
@@ -150,6 +149,11 @@ def _among(cases: Sequence[SupportCase] | Among) -> Among:
 
 def _drawn(among: Among, limits: Limits) -> dict[str, list[Rows]]:
     return among.never_pushed_up if limits.certainty > 0.0 else {}
+
+
+def _less(rows: Rows, margin: float) -> Rows:
+    """Bounds that are lower by a margin [N m], but not below 0."""
+    return rows[0], np.maximum(rows[1] - margin, 0.0)
 
 
 def _largest(rows: Rows) -> float:

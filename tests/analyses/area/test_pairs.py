@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -305,6 +306,20 @@ def test_what_counts_twice_or_does_not_fit_is_said(tmp_path: Path) -> None:
         with pytest.raises(InputError) as refused:
             run(described(tmp_path, text.replace(*change)))
         assert said in str(refused.value), refused.value
+
+
+def test_poses_without_times_ask_for_what_the_description_may_say(tmp_path: Path) -> None:
+    """What the message writes is taken by the reader, at the head of the file; and the times are those of the rate."""
+    text = BALLS.replace('motion = "plate.csv"\n', "")
+    rows = np.tile(np.eye(4).ravel(), (2, 1))
+    rows[:, 7] = 19.9, 19.8
+    written(tmp_path / "ball.csv", "\n".join(" ".join(f"{x:g}" for x in row) for row in rows) + "\n")
+    with pytest.raises(InputError) as refused:
+        run(described(tmp_path, text))
+    found = re.search(r'write (rate = \{ value = (\d+), unit = "Hz" \}) into pairs\.toml, above', str(refused.value))
+    assert found is not None and "pass `rate`" not in str(refused.value), refused.value
+    result = run(described(tmp_path, f"{found[1]}\n{text}"))
+    assert result.time.tolist() == [0.0, 1.0 / float(found[2])]
 
 
 def test_a_body_with_other_times_is_interpolated_and_said(tmp_path: Path) -> None:

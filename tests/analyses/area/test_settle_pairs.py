@@ -18,7 +18,7 @@ from geocontact.data.errors import InputError, InputWarning
 from geocontact.view.page.content import Scene, Table
 from meshes.simple_shapes import cup, sphere
 from tests.analyses.area.test_pairs import described, few, solid, turned
-from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, call, done, unpictured, written
+from tests.cli.calls import FEMUR, INSERT, PLATE, SPHERE, call, corners, done, stl, unpictured, written
 
 E, NU = 500.0, 0.46
 M = 1e6 * E * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
@@ -303,6 +303,29 @@ def test_pairs_without_a_layer_bear_nothing_and_it_is_said(tmp_path: Path) -> No
     without = "\n".join(line for line in file.read_text("utf-8").splitlines() if not line.startswith("layer"))
     with pytest.raises(InputError, match=r"\[\[free\]\] 1 body: ball is in no pair that has a layer"):
         settle(described(tmp_path, without))
+
+
+def test_an_open_body_is_warned_of_by_what_is_written(tmp_path: Path) -> None:
+    """No areas are written: an open plate bears what the closed one does, and only as MOVING has nothing to press."""
+    thick = (
+        on_plate(tmp_path, DOWN)
+        .read_text("utf-8")
+        .replace("piece =", 'thickness = { value = 8, unit = "mm" }, piece =')
+    )
+    file = described(tmp_path, thick)
+    closed = settle(file)
+    faces = corners(PLATE)
+    far = np.delete(faces, np.argmin(faces[:, :, 1].mean(axis=1)), axis=0)
+    text = file.read_text("utf-8").replace(PLATE.as_posix(), written(tmp_path / "open.stl", stl(far)).as_posix())
+    bare = '[[pairs]]\nname = "bare"\nmoving = "plate"\nfixed = "ball"\n'
+    for more, said in (("", []), (bare, ["it has no inside, so no force and pressure of it as MOVING"])):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            result = gc.settle_pairs(described(tmp_path, text + more))
+        told = [str(one.message) for one in caught]
+        assert not any("area_" in line for line in told), told
+        assert [line.rpartition(": ")[2] for line in told if "open.stl is open" in line] == said
+        np.testing.assert_allclose(result.force["ball_plate"], closed.force["ball_plate"], rtol=1e-9)
 
 
 def test_a_light_body_beside_a_heavy_one_is_not_taken_for_at_rest(tmp_path: Path) -> None:

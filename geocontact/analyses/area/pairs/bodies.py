@@ -19,6 +19,7 @@ from geocontact.analyses.frame.landmarks import region_kind
 from geocontact.data.errors import InputError
 from geocontact.data.motion import Motion
 from geocontact.io.motion.motion import read_motion
+from geocontact.io.motion.poses import PASS_RATE
 from geocontact.io.opensim.coordinates import motion_of
 from geocontact.io.opensim.osim_multibody import read_multibody
 from geocontact.io.recordings.contact_pairs import (
@@ -88,8 +89,8 @@ class TouchingBodies:
         return _rest(self.time).poses if motion is None else motion.poses
 
 
-def read(o: PairsOptions) -> TouchingBodies:
-    """Everything the description names."""
+def read(o: PairsOptions, *, areas: bool = True) -> TouchingBodies:
+    """Everything the description names; `areas` is that of `read_moved`."""
     given = read_pairs(o.description)
     add_input("description", o.description, bodies=len(given.bodies), pairs=len(given.pairs))
     used = {name for pair in given.pairs for name in (pair.moving, pair.fixed)}
@@ -102,7 +103,7 @@ def read(o: PairsOptions) -> TouchingBodies:
         raise InputError(o.description, "[[bodies]]", "no body of a pair moves", "write a motion for one")
     motions = _at_one_clock(described, _motions(described, o.description))
     time = next(motion.time for motion in motions.values() if motion is not None)
-    pairs = tuple(_pair(described, pair, o, motions, time) for pair in described.pairs)
+    pairs = tuple(_pair(described, pair, o, motions, time, areas=areas) for pair in described.pairs)
     return TouchingBodies(pairs, motions, time, given.free)
 
 
@@ -113,8 +114,7 @@ def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, M
     for body in described.bodies:
         found[body.name] = segments.get(body.name)
         if body.motion is not None:
-            unit, rate = described.unit, described.rate
-            motion = read_motion(body.motion, order=described.order, angles=described.angles, unit=unit, rate=rate)
+            motion = _motion_of(described, body.motion, file)
             add_input(f"motion of {body.name}", body.motion, frames=len(motion), source=motion.source)
             found[body.name] = body.motion, motion
             heeded |= motion.heeded
@@ -122,6 +122,18 @@ def _motions(described: PairsDescription, file: Path) -> dict[str, tuple[Path, M
         if getattr(described, key) is not None and key not in heeded:
             raise InputError(file, key, "has no effect here: no motion is read with it", "leave it out")
     return found
+
+
+def _motion_of(described: PairsDescription, motion: Path, file: Path) -> Motion:
+    """Motion of a body; an InputError that asks for `rate` says how the description has it."""
+    unit, rate = described.unit, described.rate
+    try:
+        return read_motion(motion, order=described.order, angles=described.angles, unit=unit, rate=rate)
+    except InputError as error:
+        if error.remedy != PASS_RATE:
+            raise
+        remedy = f'write rate = {{ value = 100, unit = "Hz" }} into {file.name}, above its first [[…]], with the value'
+        raise InputError(error.file, error.place, error.what, f"{remedy} of the recording") from error
 
 
 def _segments(described: PairsDescription, file: Path) -> dict[str, tuple[Path, Motion]]:
@@ -176,6 +188,8 @@ def _pair(
     o: PairsOptions,
     motions: Mapping[str, Motion | None],
     time: Float[np.ndarray, " t"],
+    *,
+    areas: bool,
 ) -> TouchingPair:
     before = len(current().inputs)
     moving, fixed = described.body(pair.moving), described.body(pair.fixed)
@@ -185,7 +199,7 @@ def _pair(
         raise InputError(o.description, f"[[pairs]] {pair.name}", what, "write a motion for one")
     with of_pair(o.description, pair.name):
         asked = _asked(described, pair, o, moving, fixed)
-        bodies = read_moved(asked, lambda _: [(pair.name, motion)])
+        bodies = read_moved(asked, lambda _: [(pair.name, motion)], areas=areas)
     for entry in current().inputs[before:]:
         entry["folder"] = pair.name
     return TouchingPair(pair.name, pair.moving, pair.fixed, asked, bodies)

@@ -93,7 +93,7 @@ class PressingBodies:
 
 def read(o: SettlePairsOptions) -> PressingBodies:
     """Everything the description names."""
-    touching = read_touching(PairsOptions(o.description))
+    touching = read_touching(PairsOptions(o.description), areas=False)
     if not touching.free:
         what = "no body is free: all stay where they are"
         raise InputError(o.description, "[[free]]", what, "write one with body, settles and a force")
