@@ -66,7 +66,7 @@ def test_help_groups_what_belongs_together() -> None:
             (
                 "ik: there is no argument `zzz` (there are `tasks`, `follow`, `marker_set`, `markers_map`, `naming`, "
                 "`model_setup`, `weight`, `hold`, `fill`, `calibration`, `heading`, `knee`, `joint_angles`, "
-                "`events`, `part`, `analog`, `axes`, `c3d_unit` and `time`)"
+                "`events`, `part`, `analog`, `bids`, `axes`, `c3d_unit` and `time`)"
             ),
         ),
     ],

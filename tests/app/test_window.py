@@ -394,7 +394,7 @@ def test_a_file_that_is_chosen_lies_in_a_folder_of_the_run(window: Window, tmp_p
 def drop(tab: Page, name: str, file: Path) -> str:
     """What the page says of a file that was chosen for a field."""
     tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
-    tab.locator(f'.field:has([name="{name}"]) .pick input').set_input_files(file)
+    tab.locator(f'.field:has([name="{name}"]) .pick input:not([webkitdirectory])').set_input_files(file)
     said = f"document.querySelector('.field:has([name=\"{name}\"]) .content')?.textContent ?? ''"
     until(tab, f"({said}).includes({json.dumps(file.name)})", 60.0)
     return str(tab.evaluate(said))

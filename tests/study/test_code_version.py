@@ -19,11 +19,12 @@ LATE = {
     "analyses/frame/calls.py",
     "analyses/frame/typed_text.py",
     "analyses/gap/benchmark/show.py",
+    "app/within.py",
     "chain/__init__.py",
     "data/stub_names.py",
     "systems/python_model.py",
 }
-"""CodeSources that import by a name: from the catalogue, an option's annotation, their own texts, a stub or a case."""
+"""CodeSources that import by a name: of the catalogue, an annotation, their own texts, a stub, a case or a form."""
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,7 @@ Draw = tuple[str, int]
 AT_BOUND = 1e-6
 """N m within which a draw's bound counts as kept, and as one that binds; the solver's own tolerance is 1e-7."""
 SAME = 1e-7
-"""Of the objective; gains that differ by less are the same, and the first draw is set aside."""
+"""Difference of two gains of the objective below which they count as equal; the first draw is then set aside."""
 
 
 def best_kept(
