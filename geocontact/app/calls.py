@@ -22,7 +22,7 @@ from geocontact.data.errors import InputError
 INDENT = "    "
 HELP = f"; see {PROGRAM} "
 WIDTH = 100
-WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_overwrite": "overwrite=False"}
+WRITTEN = {name: f"{name}=True" for name in FORMS} | {"no_figures": "figures=False", "no_overwrite": "overwrite=False"}
 """Arguments of `Result.write`."""
 
 

@@ -15,7 +15,8 @@ from geocontact.analyses.catalogue import Entry, entry_of
 from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.job import Call, Job, execute
 from geocontact.analyses.frame.options import Declared, Options, declared
-from geocontact.analyses.frame.result import Result
+from geocontact.analyses.frame.record import NO_FIGURES
+from geocontact.analyses.frame.result import Part, Result
 from geocontact.analyses.frame.table_forms import AS_ALWAYS, TableForms
 from geocontact.cli import folders, opensim_setup
 from geocontact.cli.show import Terminal
@@ -29,6 +30,7 @@ FORMS = {
     "parquet": "Also write the tables as .parquet, with all their digits.",
     "netcdf": "Also write the tables over time as .nc (netCDF), with units.",
     "excel_safe": "Write ' before texts in .csv that a spreadsheet program would run as a formula.",
+    NO_FIGURES: "Write no .png and .svg; a page draws only what it shows.",
     "no_overwrite": "Refuse a folder that holds results already.",
 }
 MOST_FILES = 20  # that are listed at the end, those in sub-folders among them
@@ -62,8 +64,9 @@ class Command:
         with self.respelling():
             folder, asked = typed["out"], _typed(self.known, self.rest, arguments, typed)
             forms = TableForms(*(typed.get(name, False) for name in ("parquet", "netcdf", "excel_safe")))
+            less = {NO_FIGURES: True} if typed.get(NO_FIGURES) else {}
             result, files = self.execute(
-                {**asked, **forms.given()}, folder, forms, overwrite=not typed.get("no_overwrite", False)
+                {**asked, **forms.given(), **less}, folder, forms, overwrite=not typed.get("no_overwrite", False)
             )
             tell(result, folder, files)
             if self.options.last_line:
@@ -99,7 +102,7 @@ class Command:
         """Run it with options in SI, by their names in Python; `told` is what `run.json` says of them."""
         options = self.options(**given)
         options.refuse_missing_files()
-        call = Call(told, Terminal(), self.spell, forms, overwrite)
+        call = Call(told, Terminal(), self.spell, forms, overwrite, parts_left_out(told))
         return execute(self.job(options), options, folder, call)
 
     @contextmanager
@@ -132,6 +135,11 @@ def command_of(entry: Entry) -> Command:
 
     more = [each.HELP for each in (opensim_setup, folders) if entry.command in each.COMMANDS]
     return Command(entry.load_options(), job, "\n\n".join(more))
+
+
+def parts_left_out(options: Mapping[str, Any]) -> frozenset[Part]:
+    """Parts that options, as `run.json` has them, say are not written."""
+    return frozenset(("figures",)) if options.get(NO_FIGURES) else frozenset()
 
 
 def _shortened(files: list[str]) -> list[str]:

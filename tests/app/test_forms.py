@@ -203,7 +203,7 @@ def test_every_field_can_be_reached_from_an_empty_form(command: str) -> None:
     assert [name for name in names if not reached(Form(command), name)] == []
 
 
-@pytest.mark.parametrize("name", ["parquet", "excel_safe", "no_overwrite"])
+@pytest.mark.parametrize("name", ["parquet", "excel_safe", "no_figures", "no_overwrite"])
 def test_forms_of_tables_are_written_in_python_too(name: str, home: Path, tmp_path: Path) -> None:
     """The lines are run: they write what the command line writes with the same words."""
     form = Form.of_words(words_of("elbow design", home))
@@ -215,6 +215,8 @@ def test_forms_of_tables_are_written_in_python_too(name: str, home: Path, tmp_pa
     if name == "no_overwrite":
         with pytest.raises(InputError, match="holds results already"):
             exec(compile(lines, "lines", "exec"), {"__name__": "__main__"})
+    elif name == "no_figures":
+        assert "figures=False" in lines and not list(out.glob("*.png"))
     else:
         assert f"{name}=True" in lines
 

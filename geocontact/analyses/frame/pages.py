@@ -14,7 +14,7 @@ from jaxtyping import Float, Int
 
 from geocontact.analyses.frame import quantities
 from geocontact.analyses.frame.folder import RUN
-from geocontact.analyses.frame.record import Record
+from geocontact.analyses.frame.record import NO_FIGURES, Record
 from geocontact.analyses.frame.warning_kinds import merged
 from geocontact.analyses.frame.withheld import is_end, withheld_section
 from geocontact.analyses.frame.words import MOST, headline
@@ -79,8 +79,11 @@ AGAIN = f"geocontact rerun {RUN}"
 
 
 def options_table(record: Record) -> Table:
-    """Options without the folders of files: a page is passed on, and where its files lay is nobody's business."""
-    told = {key: value for key, value in record.options.items() if key != "out"}
+    """Options without the folders of files: a page is passed on, and where its files lay is nobody's business.
+
+    Nor with those that change nothing on the page.
+    """
+    told = {key: value for key, value in record.options.items() if key not in ("out", NO_FIGURES)}
     given = [(key, _shown(value)) for key, value in told.items() if value not in (None, False, [], ())]
     sizes = _sizes_in_si(record)
     options = [(key, f"{shown} (in SI: {sizes[key]})" if key in sizes else shown) for key, shown in given]
@@ -183,11 +186,11 @@ def write_finished(
             return
 
 
-def plain_page(title: str, record: Record, figure: Figure | None, tables: Mapping[str, pd.DataFrame]) -> Page:
+def plain_page(title: str, record: Record, figure: bytes | None, tables: Mapping[str, pd.DataFrame]) -> Page:
     """The answer in sentences, figure and tables, for analyses that have nothing to show over time."""
     sections: list[Section] = []
     if figure is not None:
-        sections.append(Picture("Figure", "", drawing(figure), wide=True))
+        sections.append(Picture("Figure", "", figure, wide=True))
     if len(record.sentences) > MOST:
         sections.append(Words("What was found", list(record.sentences)))
     sections += [frame_table(name, table) for name, table in tables.items()]

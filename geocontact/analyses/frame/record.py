@@ -62,6 +62,8 @@ def recognised(found: Mapping[str, object]) -> Iterator[None]:
         FOLDER.reset(before)
 
 
+NO_FIGURES = "no_figures"
+"""Option of a run that wrote no figures."""
 LIBRARIES = ("numpy", "scipy", "numba", "libigl", "python-fcl", "pandas", "matplotlib")
 
 
@@ -197,8 +199,9 @@ class Record:
             yield
 
     def plain_options(self) -> dict[str, object]:
-        """Options given or in force, as JSON holds them."""
-        return {key: _plain(value) for key, value in self.options.items() if value is not None}
+        """Options given or in force, as JSON holds them, and that figures were not written."""
+        less = {NO_FIGURES: True} if "figures" in self.without else {}
+        return {key: _plain(value) for key, value in self.options.items() if value is not None} | less
 
     def versions(self) -> dict[str, str]:
         """What it ran on."""

@@ -248,15 +248,17 @@ class Result(ABC):
         if REPORT in pages:
             write_finished(pages[REPORT], file, self.record, "", self.reservations(""), most)
         else:
-            write_finished(self._plain_page(), file, self.record, "", self.warnings, most)
+            drawn = self._plain_page(Drawings(self.figures))
+            write_finished(drawn, file, self.record, "", self.warnings, most)
 
     def _pages(self, drawings: Mapping[str, bytes]) -> Mapping[str, Page | Thinned]:
-        return self.pages(drawings) or {REPORT: self._plain_page()}
+        return self.pages(drawings) or {REPORT: self._plain_page(drawings)}
 
-    def _plain_page(self) -> Page:
+    def _plain_page(self, drawings: Mapping[str, bytes]) -> Page:
         from geocontact.analyses.frame.pages import plain_page
 
-        return plain_page(self.title, self.record, self.figure(), self.tables())
+        main = next((drawings[name] for name in drawings), None)
+        return plain_page(self.title, self.record, main, self.tables())
 
     def put(self, draft: Path, forms: TableForms | None = None) -> list[str]:
         """Write everything into `draft`, `run.json` included; names of the files.
@@ -275,6 +277,7 @@ class Result(ABC):
         parquet: bool = False,
         netcdf: bool = False,
         excel_safe: bool = False,
+        figures: bool = True,
         overwrite: bool = True,
     ) -> Path:
         """Write what the command writes into a folder, whole or not at all; the folder is made where it is missing.
@@ -291,10 +294,13 @@ class Result(ABC):
             Also write the tables over time as .nc; refused where there are none.
         excel_safe
             Write ' before texts in .csv that a spreadsheet program would run as a formula.
+        figures
+            Write no .png and .svg when false; a page draws only what it shows.
         overwrite
             Refuse a folder that holds results already when false.
         """
         out = self.record.out = Path(folder)
+        self.record.without = frozenset() if figures else frozenset(("figures",))
         with collecting(self.record), written_whole(out, overwrite) as draft:
             self.put(draft, TableForms(parquet, netcdf, excel_safe))
         return out

@@ -217,7 +217,9 @@ def _all(folders: list[Path], draft: Path, o: ManyOptions) -> list[Outcome]:
     sources = sources_digest()
     found = _finished(folders, draft, o, sources) if o.resume else {}
     marks = {"run": str(results()["run"]), SOURCES: sources}
-    work = partial(outcome, draft=draft, o=o, options=dict(current().options), marks=marks, forms=current().forms)
+    asked = current()
+    work = partial(outcome, draft=draft, o=o, options=dict(asked.options), marks=marks, forms=asked.forms)
+    work = partial(work, without=asked.without)
     todo, place = [folder for folder in folders if folder.name not in found], results_place()
     with listener().progress("cases", len(todo)) as step:
         for folder, became in each(work, todo, o.workers):
@@ -264,6 +266,7 @@ def outcome(
     options: Mapping[str, object],
     marks: Mapping[str, str],
     forms: TableForms,
+    without: frozenset[str],
 ) -> Outcome:
     """Diagnosis of one case into draft/<case>; what is wrong is written, not raised.
 
@@ -275,10 +278,13 @@ def outcome(
         Results of every case: which run it was, and of which sources.
     forms
         Further forms of the tables.
+    without
+        Parts that are not written.
     """
     place = draft / folder.name
     one = ManyOptions(folder, many=True, bare=o.bare, workers=o.workers, run_simulator=o.run_simulator)
-    record = Record("gap diagnose", {**options, "case": folder}, one.in_si(), results=dict(marks), forms=forms)
+    typed = {**options, "case": folder}
+    record = Record("gap diagnose", typed, one.in_si(), results=dict(marks), forms=forms, without=without)
 
     def failed(code: int, line: str) -> Outcome:
         shutil.rmtree(place, ignore_errors=True)

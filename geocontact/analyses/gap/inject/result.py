@@ -135,6 +135,7 @@ class InjectResult(Result):
         """The case, its diagnosis with a record of its own, and what was put in."""
         shutil.copytree(self.scratch.folder / CASE, folder / CASE)
         (folder / DIAGNOSIS).mkdir()
+        self.diagnosed.record.without = self.record.without
         self.diagnosed.put(folder / DIAGNOSIS)
         write_json(folder / "planted.json", answer(self.effect, self.planted, self.diagnosis, self.judgement))
 
