@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from geocontact.data.errors import InputError
-from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
+from geocontact.data.plausible import LARGEST_MEANT, TALL, TOO_LARGE
 from geocontact.io.text.csv_text import text_of
 
 LARGEST = 1_000_000
@@ -59,6 +59,8 @@ def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
             raise InputError(path, f"line {line}", f"{name} is not a number", REMEDY)
         if abs(value) > LARGEST_MEANT:
             raise InputError(path, f"line {line}", f"{name} {TOO_LARGE}", REMEDY)
+        if name == HEIGHT and (refusal := TALL.refusal(value)) is not None:
+            raise InputError(path, f"line {line}", f"{name}: {refusal[0]}", refusal[1])
         found[name] = value
         if row["note"] == ALONE:
             alone.append(name)
