@@ -51,20 +51,25 @@ def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
             continue
         if name in found:
             raise InputError(path, f"line {line}", f"{name} is there twice", "keep one of them")
-        try:
-            value = float(row["value"])
-        except (TypeError, ValueError):
-            value = math.nan
-        if not math.isfinite(value):
-            raise InputError(path, f"line {line}", f"{name} is not a number", REMEDY)
-        if abs(value) > LARGEST_MEANT:
-            raise InputError(path, f"line {line}", f"{name} {TOO_LARGE}", REMEDY)
-        if name == HEIGHT and (refusal := TALL.refusal(value)) is not None:
-            raise InputError(path, f"line {line}", f"{name}: {refusal[0]}", refusal[1])
-        found[name] = value
+        found[name] = _number(path, f"line {line}", name, row["value"])
         if row["note"] == ALONE:
             alone.append(name)
     missing = [name for name in (HEIGHT, *names) if name not in found]
     if missing:
         raise InputError(path, "", f"no {', '.join(missing)}", REMEDY)
     return DeviceNumbers(found.pop(HEIGHT), found, tuple(alone))
+
+
+def _number(path: Path, place: str, name: str, text: str | None) -> float:
+    """A finite number; the height is one of a person."""
+    try:
+        value = float(text or "")
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputError(path, place, f"{name} is not a number", REMEDY)
+    if abs(value) > LARGEST_MEANT:
+        raise InputError(path, place, f"{name} {TOO_LARGE}", REMEDY)
+    if name == HEIGHT and (refusal := TALL.refusal(value)) is not None:
+        raise InputError(path, place, f"{name}: {refusal[0]}", refusal[1])
+    return value
