@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -10,7 +9,7 @@ from pathlib import Path
 
 from geocontact.data.errors import InputError
 from geocontact.data.plausible import LARGEST_MEANT, TALL, TOO_LARGE
-from geocontact.io.text.csv_text import text_of
+from geocontact.io.text.csv_text import dict_rows
 
 LARGEST = 1_000_000
 """Bytes."""
@@ -39,7 +38,7 @@ class DeviceNumbers:
 
 def read_device_numbers(path: Path, names: Collection[str]) -> DeviceNumbers:
     """Height and parameters; InputError where one of `names` is missing, twice or no number."""
-    rows = csv.DictReader(text_of(path, LARGEST, "a table of numbers").decode("utf-8").splitlines())
+    rows = dict_rows(path, LARGEST, "a table of numbers")
     if not {"number", "value", "note"} <= set(rows.fieldnames or ()):
         raise InputError(path, "line 1", "has no columns number, value and note", REMEDY)
     found: dict[str, float] = {}

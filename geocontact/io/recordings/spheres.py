@@ -4,7 +4,6 @@ them.
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 import warnings
@@ -23,7 +22,7 @@ from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
 from geocontact.io.document_errors import BOUNDS, CHECK
 from geocontact.io.text.column_names import spelled_as
-from geocontact.io.text.csv_text import text_of
+from geocontact.io.text.csv_text import dict_rows
 from geocontact.io.text.file_preflight import read_text_bytes
 from geocontact.io.text.plain_table import is_sheet, open_plain
 from geocontact.io.text.tables import unequal
@@ -327,8 +326,7 @@ def read_contact_parameters(
     path: Path, units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
 ) -> dict[str, float]:
     """Values by name in SI; InputError where one of `units` is missing, twice, in another unit or out of bounds."""
-    text = text_of(path, LARGEST, "a table of parameters").decode("utf-8")
-    rows = csv.DictReader(text.splitlines())
+    rows = dict_rows(path, LARGEST, "a table of parameters")
     if not {"parameter", "unit", "value"} <= set(rows.fieldnames or ()):
         remedy = "give parameters.csv of a calibration"
         raise InputError(path, "line 1", "has no columns parameter, unit and value", remedy)
@@ -362,7 +360,7 @@ def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tupl
 
     InputError for an interval without room.
     """
-    rows = csv.DictReader(text_of(path, LARGEST, "a table of parameters").decode("utf-8").splitlines())
+    rows = dict_rows(path, LARGEST, "a table of parameters")
     found: dict[str, tuple[float, float]] = {}
     for row in rows:
         if row.get("parameter") in names:

@@ -336,12 +336,19 @@ def _files_of(trial: FolderTrial) -> set[Path]:
     return {each for each in (*own, *trial.forces, *trial.rival_loads) if each is not None}
 
 
+SESSION = ("mass_kg", "height_m", "openSimModel")
+"""Keys of a session of OpenCap that are read."""
+
+
 def _session(file: Path) -> FolderPerson | None:
     """Keys of the first level of OpenCap's YAML, each a line `mass_kg: 83.0`."""
     if not file.is_file():
         return None
     lines = read_text_bytes(file, LARGEST_TEXT).decode("utf-8-sig", errors="replace").splitlines()
-    given = dict(line.split(":", 1) for line in lines if re.match(r"\w+:", line))
+    pairs = [line.split(":", 1) for line in lines if re.match(r"\w+:", line)]
+    given = dict(pairs)
+    if twice := next((key for key in SESSION if [each for each, _ in pairs].count(key) > 1), ""):
+        raise InputError(file, twice, "is there twice", "keep one of them")
     mass, height = (_size(file, key, given.get(key, "").strip()) for key in ("mass_kg", "height_m"))
     return FolderPerson(file, mass, height, given.get("openSimModel", "").strip().strip("'\""))
 
@@ -349,6 +356,8 @@ def _session(file: Path) -> FolderPerson | None:
 def _subject(file: Path) -> FolderPerson:
     try:
         given = read_json(file)
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", "is not JSON", "download the subject again") from error
     given = given if isinstance(given, dict) else {}
