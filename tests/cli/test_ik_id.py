@@ -625,7 +625,7 @@ ID_REFUSED = {
     "a negative cut-off": (("--cutoff", "-1"), "-1 Hz cannot be a cut-off frequency"),
     "no such span": (("--time", "3:4"), "no frame between 3 and 4 s"),
     "a plate twice": (
-        ("--plates", "grf.mot", "--plate", "1=foot_r", "--plate", "1=foot_l"),
+        ("--plates", __file__, "--plate", "1=foot_r", "--plate", "1=foot_l"),
         "plate 1 is given twice: its force would act twice",
     ),
 }

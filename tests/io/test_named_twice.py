@@ -23,12 +23,13 @@ from geocontact.io.text.tables import read_table
 
 def of_options() -> list[Any]:
     """Options that take numbers by name, of all analyses."""
-    found = []
-    for entry in ENTRIES:
-        for one in declared(entry.load_options()):
-            if one.typed is not None and one.typed.read.rpartition(":")[2] in ("named_numbers", "numbers", "springs"):
-                found.append(pytest.param(one, id=f"{entry.command} {one.name}"))
-    return found
+    by_name = ("named_numbers", "numbers", "springs")
+    return [
+        pytest.param(one, id=f"{entry.command} {one.name}")
+        for entry in ENTRIES
+        for one in declared(entry.load_options())
+        if one.typed is not None and one.typed.read.rpartition(":")[2] in by_name
+    ]
 
 
 @pytest.mark.parametrize("one", of_options())

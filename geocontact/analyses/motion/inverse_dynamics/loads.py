@@ -114,7 +114,7 @@ def _external_loads(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]
         file, loads = read_external_loads(o.loads)
         add_input("`loads`", o.loads, forces=len(loads))
         return file, loads
-    chosen = []
+    chosen: list[ExternalLoad] = []
     for text in o.plate:
         plate, equals, body = text.rpartition("=")
         if not equals:
