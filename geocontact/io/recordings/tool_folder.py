@@ -21,11 +21,13 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
+from geocontact.data.text import same_place
 from geocontact.io.text.file_preflight import read_json, read_text_bytes
 from geocontact.io.text.tables import listed
 from geocontact.io.text.toml_text import toml_of
@@ -131,6 +133,9 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
     for kind in (_opencap, _addbiomechanics, _pose2sim, _laboratory):
         found = kind(root)
         if found is not None:
+            if twice := same_place(trial.name for trial in found.trials):
+                what = f"two trials are called {twice}, in small and in capital letters"
+                raise InputError(root, "", what, "rename one: their results would share a folder")
             return replace(found, unused=_count_of_others(found))
     if any(file.suffix.lower() == ".b3d" for file in _files(root)):
         raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
@@ -317,7 +322,12 @@ def _named(folder: Path, ending: str) -> list[Path]:
     if not folder.is_dir():
         return []
     files = (file for file in folder.iterdir() if file.suffix.lower() == ending and file.is_file())
-    return sorted(file for file in files if not file.name.startswith("."))
+    found = sorted(file for file in files if not file.name.startswith("."))
+    if same_place(file.name for file in found):
+        one, other = next(pair for pair in combinations([f.name for f in found], 2) if same_place(pair))
+        what = f"{one} and {other} differ in capital letters only"
+        raise InputError(folder, "", what, "rename one: both would be one trial")
+    return found
 
 
 def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
