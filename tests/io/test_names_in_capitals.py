@@ -1,9 +1,8 @@
-"""Files whose names differ in capital letters only: refused where their results would share a name or one was dropped."""
+"""Files whose names differ in capital letters only: refused where results would share a name or one was dropped."""
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
 from contextlib import chdir
 from pathlib import Path
 
@@ -20,13 +19,13 @@ SAMPLE = Path(__file__).resolve().parents[2] / "meshes" / "sphere_r20.stl"
 
 
 @pytest.fixture
-def distinct(tmp_path: Path) -> Iterator[Path]:
+def distinct(tmp_path: Path) -> Path:
     """A folder in which a.csv and A.csv are two files; some systems have none."""
     (tmp_path / "probe").touch()
     if (tmp_path / "PROBE").exists():
         pytest.skip("names are the same in small and in capital letters here")
     (tmp_path / "probe").unlink()
-    yield tmp_path
+    return tmp_path
 
 
 @pytest.mark.parametrize(
