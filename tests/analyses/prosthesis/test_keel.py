@@ -76,7 +76,7 @@ SD = 0.06
 
 
 def of_stiffnesses(folder: Path, off: float) -> Path:
-    """The bench's foot with stiffnesses by Euler and Bernoulli in place of curves, that of firm off by so much [N/mm]."""
+    """The bench's foot with stiffnesses by Euler and Bernoulli in place of curves, that of firm `off` [N/mm]."""
     file = copied(folder)
     text = file.read_text()
     rows = ""
