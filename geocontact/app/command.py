@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 
 from geocontact.data.errors import InputError
@@ -27,6 +28,8 @@ def window(*, out: Path = Path("geocontact-results"), port: int = 0, browser: bo
         raise InputError("", "", f"{port} is no port", f"give 0 to {HIGHEST}")
     if out.exists() and not out.is_dir():
         raise InputError(out, "", "is a file where results need a folder", "choose another one")
+    if find_spec("nicegui") is None:  # before what comes with it is missed, which no extra names
+        raise ModuleNotFoundError("No module named 'nicegui'", name="nicegui")
     from geocontact.app.server import serve
 
     out.mkdir(parents=True, exist_ok=True)

@@ -55,6 +55,17 @@ class FileView:
         """From now on look at files that nobody changed by hand as well."""
         self._anew = True
 
+    @property
+    def _looks(self) -> bool:
+        """Whether files are read: not before a field for them was changed by hand."""
+        return self._anew or any(row.touched for row in self._rows.values())
+
+    def changed(self) -> bool:
+        """Whether files are not as they are shown: written again, new or gone, those in a folder too."""
+        if self._at_work or not self._looks:
+            return False
+        return any(self._files(row.one) != self._shown[name] for name, row in self._rows.items())
+
     async def look(self) -> None:
         """Read files that are new, show what they hold, and colour pictures.
 
@@ -67,7 +78,7 @@ class FileView:
         try:
             while self._due:  # an answer for a picture may last: files come meanwhile
                 self._due = False
-                if self._anew or any(row.touched for row in self._rows.values()):
+                if self._looks:
                     await self._follow()
                 for picture in [each for some in self._pictures.values() for each in some]:
                     await picture.colour()

@@ -16,6 +16,7 @@ from typing import Any
 
 from geocontact.app.files import answer_of
 from geocontact.data.errors import InputError
+from geocontact.data.text import same_place
 
 Row = Mapping[str, str]
 """A column of the recordings as it was chosen: column, channel, unit."""
@@ -138,7 +139,7 @@ def _trials(asked: dict[str, Any]) -> dict[str, Any]:
     from geocontact.analyses.gap.chosen_columns import ChosenColumn, write_chosen
 
     folder, files = Path(asked["folder"]), [Path(each) for each in asked["files"]]
-    if len({file.stem for file in files}) < len(files):
+    if same_place(file.stem for file in files):
         raise InputError("", "trials", "two files have one name", "rename one: trials are named after their files")
     for file in files:
         write_chosen(file, [ChosenColumn(**row) for row in asked["rows"]], folder / f"{file.stem}.csv")

@@ -12,6 +12,7 @@ from geocontact.analyses.frame.calls import key
 from geocontact.analyses.frame.file_content import holds
 from geocontact.app.fields import Field, Form
 from geocontact.cli.command import FORMS
+from geocontact.study.trials import literal
 
 HEAD = """\
 analysis = {command}
@@ -76,6 +77,7 @@ def _toml(one: Field, form: Form, folder: Path) -> str:
     texts = [word.removeprefix(f"{one.spelled}=") for word in one.typed(value, form.unit(one))]
     if one.kind in ("file", "files"):
         texts = [_absolute(text, folder) for text in texts]
+    texts = [literal(text) for text in texts]
     if one.several:
         return json.dumps(texts, ensure_ascii=False)
     kind = one.one.typed.kind if one.one.typed is not None else one.one.kind

@@ -29,6 +29,8 @@ GO_TO_PAGES = (
 """Pages lie below a long form; whoever is typing in it stays there."""
 LOOK = 0.3
 """s between two looks at the runs and at what was typed."""
+CHANGES = 3.0
+"""s between two looks at whether files that are shown were changed by others."""
 
 
 class Workplace:
@@ -77,6 +79,7 @@ class Workplace:
         self.pages = element("div", "pages")
         self.command.text = shown(self.form.words(self.out))
         ui.timer(LOOK, self._look, immediate=False)  # the page is there before its words are checked
+        ui.timer(CHANGES, self._look_at_changes, immediate=False)
 
     def run(self) -> None:
         """A run of what is filled in, unless that is refused as it stands; its results lie in a folder of their own.
@@ -179,6 +182,10 @@ class Workplace:
                 self.view.go_to(run.message)
             elif run.pages and run.words == self.words:
                 self.show(*next(iter(run.pages.items())), beside=False)
+
+    def _look_at_changes(self) -> None:
+        """What is said of files that were changed is said anew."""
+        self._dirty = self._dirty or self.files.changed()
 
     def _say(self) -> None:
         """Show the call, and a mistake at the field that it names."""

@@ -15,6 +15,8 @@ from geocontact.io.text.side_table import read_side_table
 from geocontact.study.description import RESERVED, StudyFile
 
 NAME = re.compile(r"\{(\w+)\}")
+TOKEN = re.compile(r"\{\{|\}\}|\{(\w+)\}")
+"""A name in braces, or a doubled brace that stands for one."""
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
 Factors = dict[str, Any]
@@ -36,16 +38,48 @@ def split_pattern(pattern: str, kind: type[PurePath] = PurePath) -> tuple[str, s
 
 
 def expression_of(pattern: str, kind: type[PurePath] = PurePath) -> re.Pattern[str]:
-    """What the text of a path must fit: `{name}` a part without /, the same one wherever it stands, * anything."""
+    """What the text of a path must fit: `{name}` a part without /, the same one wherever it stands, * anything.
+
+    `{{` and `}}` are braces.
+    """
     expression, seen = "", set[str]()
-    for k, part in enumerate(NAME.split(pattern)):
-        if k % 2 == 0:
-            expression += "[^/]*".join(map(re.escape, part.split("*")))
-        else:
-            expression += f"(?P={part})" if part in seen else f"(?P<{part}>[^/]+?)"
-            seen.add(part)
+    for text, name in _parts(pattern):
+        expression += "[^/]*".join(map(re.escape, text.split("*")))
+        if name:
+            expression += f"(?P={name})" if name in seen else f"(?P<{name}>[^/]+?)"
+            seen.add(name)
     alike = issubclass(kind, PureWindowsPath)  # where A.csv and a.csv are one file
     return re.compile(expression, re.IGNORECASE if alike else re.NOFLAG)
+
+
+def literal(text: str) -> str:
+    """The text as an option, a pattern or a file of a study names it: its braces doubled.
+
+    `{word:…}` remains a file of an earlier step, which no path is meant by.
+
+    >>> literal("trials {2}/a.csv")
+    'trials {{2}}/a.csv'
+    """
+    return text.replace("{", "{{").replace("}", "}}")
+
+
+def _parts(pattern: str) -> Iterator[tuple[str, str]]:
+    """Texts, braces as they are meant, each with the name behind it; the last one without."""
+    text, last = "", 0
+    for found in TOKEN.finditer(pattern):
+        text, last = text + pattern[last : found.start()], found.end()
+        if found[1] is None:
+            text += found[0][0]
+        else:
+            yield text, found[1]
+            text = ""
+    yield text + pattern[last:], ""
+
+
+def _with_wildcards(pattern: str) -> str:
+    """The pattern for `Path.glob`, which finds what fits and more; what only it takes for a wildcard is escaped."""
+    parts = (re.sub(r"[\[?]", r"[\g<0>]", text) + "*" * bool(name) for text, name in _parts(pattern))
+    return "".join(parts)
 
 
 def found_files(home: Path, pattern: str, study: Path) -> list[tuple[str, dict[str, str]]]:
@@ -56,7 +90,7 @@ def found_files(home: Path, pattern: str, study: Path) -> list[tuple[str, dict[s
     start, rest = split_pattern(pattern, type(home))
     base = Path(start) if start else home
     expression = expression_of(rest, type(home))
-    matches = sorted(each.relative_to(base).as_posix() for each in base.glob(NAME.sub("*", rest)))
+    matches = sorted(each.relative_to(base).as_posix() for each in base.glob(_with_wildcards(rest)))
     fits = [(path, fit) for path in matches if (fit := expression.fullmatch(path))]
     if not fits:
         remedy = "write / between folders" if "\\" in rest else f"paths start from {base}"
@@ -166,12 +200,15 @@ def _trial(study: StudyFile, row: tuple[Factors, Factors]) -> TrialRow | None:
 def filled(
     study: StudyFile, name: str, value: Any, factors: Mapping[str, Value | Several], where: str = "[options]"
 ) -> Any:
-    """A value with what `{name}` stands for; a number where it stands alone for one, several items in a list."""
+    """A value with what `{name}` stands for; a number where it stands alone for one, several items in a list.
+
+    `{{` and `}}` are braces.
+    """
     if isinstance(value, list):
         return [each for item in value for each in _items(study, name, item, factors, where)]
     if not isinstance(value, str):
         return value
-    for each in NAME.findall(value):
+    for each in filter(None, TOKEN.findall(value)):
         known = factors.get(each)
         if known is None:
             raise InputError(
@@ -185,7 +222,9 @@ def filled(
             remedy = f'write it in a list, ["{{{each}}}"], or choose trials by `where`'
             raise InputError(study.path, f"{where} {name}".strip(), what, remedy)
     alone = NAME.fullmatch(value)
-    return factors[alone[1]] if alone else NAME.sub(lambda found: str(factors[found[1]]), value)
+    if alone:
+        return factors[alone[1]]
+    return TOKEN.sub(lambda found: found[0][0] if found[1] is None else str(factors[found[1]]), value)
 
 
 def _items(study: StudyFile, name: str, item: Any, factors: Mapping[str, Value | Several], where: str) -> list[Any]:

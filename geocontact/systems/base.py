@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -90,9 +91,15 @@ class Base:
 
 
 def require_numbers(
-    system: str, needed: tuple[str, ...], parameters: tuple[Parameter, ...], constants: Mapping[str, float]
+    system: str,
+    needed: tuple[str, ...],
+    parameters: tuple[Parameter, ...],
+    constants: Mapping[str, float],
+    *,
+    positive: Collection[str] = (),
+    not_negative: Collection[str] = (),
 ) -> None:
-    """Check that every number of a base model is given once.
+    """Check that every number of a base model is given once, and has a sign that it can have.
 
     Parameters
     ----------
@@ -102,11 +109,14 @@ def require_numbers(
         Names of its numbers.
     parameters, constants
         What the case gives.
+    positive, not_negative
+        Names of those that are above 0, and of those that may be 0 as well: constants, and where parameters start.
+        Bounds of a search may be anything.
 
     Raises
     ------
     ValueError
-        A number is neither parameter nor constant, or both.
+        A number is neither parameter nor constant, or both, not finite, or of a sign that it cannot have.
 
     Examples
     --------
@@ -119,3 +129,11 @@ def require_numbers(
             raise ValueError(f"{system}: {name} is missing; give it as a parameter or as a constant")
         if name in names and name in constants:
             raise ValueError(f"{system}: {name} is both a parameter and a constant; keep one")
+    stated = {**constants, **{p.name: p.start for p in parameters}}
+    for name, value in stated.items():
+        if not math.isfinite(value):
+            raise ValueError(f"{system}: {name} is {value}; write a finite number")
+        if name in positive and not value > 0.0:
+            raise ValueError(f"{system}: {name} is {value:g} and must be positive; correct it")
+        if name in not_negative and value < 0.0:
+            raise ValueError(f"{system}: {name} is {value:g} and must not be negative; correct it")

@@ -83,7 +83,7 @@ def build(
     parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
 ) -> System:
     """The base model; ValueError when it lacks a number, has one that it does not know, or a curve that is none."""
-    require_numbers("elastic joint", ("k",), parameters, constants)
+    require_numbers("elastic joint", ("k",), parameters, constants, positive=("k",))
     for parameter in parameters:
         if parameter.name not in ("k", *OPTIONAL):
             raise ValueError(f"elastic joint: no parameter {parameter.name}; it has k, {', '.join(OPTIONAL)}")

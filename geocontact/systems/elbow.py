@@ -149,7 +149,7 @@ def build(
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
     parameters = tuple(replace(each, name=FORMER.get(each.name, each.name)) for each in parameters)
     constants = {FORMER.get(name, name): value for name, value in constants.items()}
-    require_numbers("elbow", tuple(NUMBERS), parameters, constants)
+    require_numbers("elbow", tuple(NUMBERS), parameters, constants, positive=("k", "l"))
     return System(
         name="elbow",
         motion=Motion(INPUTS),

@@ -25,6 +25,7 @@ from geocontact.systems.foot_spheres import INPUTS, FootSpheres
 OUTPUTS = ("force_x", "force_y", "cop_x")
 UNITS = {"x": "m", "y": "m", "pitch": "rad", "force_x": "N", "force_y": "N", "cop_x": "m"}
 CONSTANTS = {"n": "-", "delta_full": "m", "mu_s": "-", "mu_k": "-", "v_th": "m/s"}
+POSITIVE = ("n", "delta_full", "v_th")
 LETTERS = {"k": "N/m^n", "b": "N s/m"}
 COLUMNS = ("px [m]", "py [m]", "radius [m]", "zone")
 LEAST_FORCE = 20.0
@@ -56,13 +57,19 @@ def without_centre(outputs: Channels, movement: DifferentiatedInputs, values: Va
 
 
 def zones_of(tables: Mapping[str, pd.DataFrame]) -> tuple[str, ...]:
-    """Zone of each sphere; ValueError when there is no table of spheres, or when it is none."""
+    """Zone of each sphere; ValueError when there is no table of spheres, or one that cannot be."""
     if "spheres" not in tables:
         raise ValueError('foot: the table of spheres is missing; name it in case.toml, spheres = "spheres.csv"')
     table = tables["spheres"]
     for column in COLUMNS:
         if column not in table.columns:
             raise ValueError(f"foot: the spheres have no column {column!r}; they have {', '.join(map(str, table))}")
+    for row, values in enumerate(table[list(COLUMNS[:3])].to_numpy(float), 1):
+        if not np.isfinite(values).all():
+            raise ValueError(f"foot: row {row} of the table spheres has a number that is not finite; correct it")
+        if not values[2] > 0.0:
+            what = f"row {row} of the table spheres has radius {values[2]:g} m, which must be positive"
+            raise ValueError(f"foot: {what}; correct it or take the row out")
     return tuple(str(zone) for zone in table["zone"])
 
 
@@ -77,7 +84,10 @@ def build(
 ) -> System:
     """The base model; ValueError when a table, column or number that it needs is missing."""
     zones = zones_of(tables)
-    require_numbers("foot", tuple(numbers_of(zones)), parameters, constants)
+    needed = tuple(numbers_of(zones))
+    positive = [name for name in needed if name.startswith("k_") or name in POSITIVE]
+    not_negative = [name for name in needed if name not in positive]
+    require_numbers("foot", needed, parameters, constants, positive=positive, not_negative=not_negative)
     place = [np.ascontiguousarray(tables["spheres"][column], float) for column in COLUMNS[:3]]
     return System(
         name="foot",

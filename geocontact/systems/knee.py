@@ -125,7 +125,7 @@ def build(
     parameters: tuple[Parameter, ...], constants: Mapping[str, float], tables: Mapping[str, pd.DataFrame]
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
-    require_numbers("knee", tuple(NUMBERS), parameters, constants)
+    require_numbers("knee", tuple(NUMBERS), parameters, constants, positive=tuple(NUMBERS))
     return System(
         name="knee",
         motion=Motion(INPUTS),

@@ -105,7 +105,7 @@ def build(
 ) -> System:
     """The chain down to `outputs`; ValueError when a number, table or mesh that it needs is missing or wrong."""
     cells = outputs == CELL_NAMES
-    require_numbers("knee chain", ("E_star", "R"), parameters, constants)
+    require_numbers("knee chain", ("E_star", "R"), parameters, constants, positive=("E_star", "R"))
     require_numbers("knee chain", ("threshold", "side", *(ROWS if cells else ())), (), constants)
     total: Callable[[Loads], Float[np.ndarray, "t c"]] = measured_forces
     if cells:

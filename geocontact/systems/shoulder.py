@@ -137,6 +137,8 @@ UNITS = {"arm": "rad", "event": "-", "exo": "rad", "force": "N"}
 LENGTHS = ("L_h", "o_x", "o_y", "l_c")
 NUMBERS = {"L_h": "m", "o_x": "m", "o_y": "m", "I": "kg m^2", "c": "N m s/rad", "l_c": "m", "m": "kg"}
 LAW = {"k_t": "N/m", "b_t": "N s/m"}
+POSITIVE, NOT_NEGATIVE = ("L_h", "k_t"), ("c", "m", "b_t")
+"""Beside I, whose bounds are to be positive as well: the arm is integrated with it."""
 COLUMNS = ("angle [rad]", "torque [N m]")
 TRAITS = Traits(
     way=Way(3.0, "deflection"),
@@ -173,7 +175,8 @@ def build(
 ) -> System:
     """The base model; ValueError when a table, column or number that it needs is missing."""
     table = support_table(tables)
-    require_numbers("shoulder", (*NUMBERS, *LAW), parameters, constants)
+    needed = (*NUMBERS, *LAW)
+    require_numbers("shoulder", needed, parameters, constants, positive=POSITIVE, not_negative=NOT_NEGATIVE)
     inertia = {**constants, **{p.name: p.start if p.fixed else p.lower for p in parameters}}["I"]
     if not inertia > 0.0:
         raise ValueError(f"shoulder: the moment of inertia I = {inertia:g} kg m^2 is not positive")

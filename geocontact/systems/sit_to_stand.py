@@ -203,7 +203,9 @@ def build(
 ) -> System:
     """The base model; ValueError when a number that it needs is neither parameter nor constant."""
     sites = sites_of(parameters, constants)
-    require_numbers("sit_to_stand", tuple(numbers_of(sites)), parameters, constants)
+    positive = [f"k_n_{site}" for site in sites]
+    needed = tuple(numbers_of(sites))
+    require_numbers("sit_to_stand", needed, parameters, constants, positive=positive, not_negative=("b",))
     inputs, outputs = channels(sites)
     law = {f"{site}.k": f"k_n_{site}" for site in sites} | {f"{site}.b": "b" for site in sites}
     traits = Traits(

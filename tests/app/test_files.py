@@ -165,3 +165,35 @@ def test_folders_are_recognised_where_a_field_takes_one(tmp_path: Path) -> None:
         "1 other file",
     ]
     assert contents([laboratory]) == [found]
+
+
+def test_a_folder_is_another_one_when_anything_in_it_changes(tmp_path: Path) -> None:
+    """Written again four levels below, with the same size; new; gone. What no reader looks at changes nothing."""
+    deep = tmp_path / "session" / "a" / "b" / "c" / "d"
+    deep.mkdir(parents=True)
+    (deep / "walk.trc").write_text("one")
+    os.utime(deep / "walk.trc", ns=(10**18, 10**18))
+    seen = [known_file(tmp_path / "session", folder=True)]
+
+    def changed() -> bool:
+        seen.append(known_file(tmp_path / "session", folder=True))
+        return seen[-1] != seen[-2]
+
+    assert not changed()
+    (deep / "walk.trc").write_text("two")
+    os.utime(deep / "walk.trc", ns=(10**18 + 1, 10**18 + 1))
+    assert changed() and seen[-1] is not None and seen[-1][0] == tmp_path / "session"
+    (deep / "still.trc").write_text("")
+    assert changed()
+    (deep / "still.trc").unlink()
+    assert changed() and not changed()
+    (deep / ".hidden").write_text("")
+    assert changed() and not changed()  # by the time of the folder that it is in
+    (deep / ".hidden").write_text("more")
+    assert not changed()
+    (deep / "e" / "f").mkdir(parents=True)
+    assert changed()
+    (deep / "e" / "f" / "walk.trc").write_text("")
+    assert not changed()
+    (tmp_path / "session" / "again").symlink_to(tmp_path / "session")
+    assert changed() and not changed()

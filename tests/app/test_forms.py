@@ -26,7 +26,7 @@ from geocontact.cli.folders import calls_in_folder
 from geocontact.cli.main import app
 from geocontact.cli.opensim_setup import with_setup
 from geocontact.data.errors import InputError
-from tests.cli.calls import call, done
+from tests.cli.calls import SPHERE, call, done
 from tests.cli.test_tool_folders import leg, opencap, put
 
 __all__ = ["leg"]
@@ -310,6 +310,21 @@ def test_a_path_that_the_file_system_refuses_is_one_line(tmp_path: Path) -> None
     lines, wrong = calls.checked(form.words("out"), "ik", "out")
     assert lines == "" and "File name too long" in wrong and "Traceback" not in wrong
     assert f'"{"x" * 5000}"' in study_of({"": form}, tmp_path)
+
+
+def test_a_study_of_paths_with_braces_is_run_by_cohort(tmp_path: Path) -> None:
+    """As somebody's folder is called; the same options as the form's."""
+    from geocontact.study.description import read_study_file
+    from geocontact.study.steps import runs_of
+
+    odd = tmp_path / "scans {left} [1]"
+    odd.mkdir()
+    file, mesh = tmp_path / "study.toml", odd / "{ball}.stl"
+    mesh.write_bytes(SPHERE.read_bytes())
+    form = Form("fit", {"mesh": str(mesh), "shape": "sphere", "unit": "mm"})
+    file.write_text(study_of({"": form}, tmp_path), encoding="utf-8")
+    assert runs_of(read_study_file(file))[0].trial.options["mesh"] == mesh.as_posix()
+    done(call("cohort", file, "--workers", "1", "--out", tmp_path / "study", folder=tmp_path / "study"))
 
 
 @pytest.mark.parametrize(("command", "table"), [("ik", "ik.mot"), ("markers", "markers.trc")])

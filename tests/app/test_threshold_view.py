@@ -219,6 +219,34 @@ def test_what_a_slider_was_moved_over_is_not_asked_and_files_are_looked_at(
     assert view._shown["moving"] == (known_file(last),)
 
 
+def test_a_folder_that_others_change_deep_inside_is_said_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While it is shown, and nothing is typed."""
+    read: list[str] = []
+
+    async def at_once(called: Any, what: Any) -> Any:
+        read.extend(path.name for path in what)
+        return [Content(kind=f"look {len(read)}") for _ in what]
+
+    monkeypatch.setattr(run, "io_bound", at_once)
+    deep = tmp_path / "session" / "MarkerData" / "raw" / "first"
+    deep.mkdir(parents=True)
+    (deep / "walk.trc").write_text("one", encoding="utf-8")
+    client = Client(page(""), request=None)
+    form = Form("markers", {"coordinates": str(tmp_path / "session")})
+    with client.content:
+        view = FileView(FormView(form, "up", lambda: None), tmp_path, tmp_path, str, "up")
+        awaited(view.look())
+        assert not view.changed() and not read  # of a form that nobody has filled in by hand
+        view.look_at_all()
+        assert view.changed()
+        awaited(view.look())
+        assert not view.changed() and read == ["session"]
+        (deep / "walk.trc").write_text("another", encoding="utf-8")
+        assert view.changed()
+        awaited(view.look())
+        assert not view.changed() and read == ["session", "session"]
+
+
 def said(tab: Page) -> str:
     return str(tab.locator(".picture .lines").inner_text())
 

@@ -126,6 +126,19 @@ def test_a_library_of_an_extra_that_is_not_installed_is_one_line(
     assert not (tmp_path / "out").exists()
 
 
+def test_a_window_without_its_extra_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor is there what comes with nicegui, which the window imports before it."""
+    for name in ("nicegui", "fastapi", "starlette", "uvicorn"):
+        for each in [each for each in sys.modules if each.partition(".")[0] == name]:
+            monkeypatch.delitem(sys.modules, each)
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setattr("geocontact.cli.suggestions.requires", lambda _: ["nicegui>=3.18; extra == 'app'"])
+    refused = call("app", "--no-browser", "--out", tmp_path / "out")
+    line = "nicegui is needed here and not installed; pip install 'geocontact[app]'\n"
+    assert (refused.code, refused.err) == (2, line)
+    assert not (tmp_path / "out").exists()
+
+
 def test_parquet_without_pyarrow_is_refused_before_anything_is_computed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

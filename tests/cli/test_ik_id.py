@@ -516,6 +516,7 @@ def test_a_joint_on_a_frame_of_a_body_is_scaled_or_refused(tmp_path: Path) -> No
 REFUSED = {
     "no such marker": (("--weight", "heel=3"), "'heel=3' is not in the model"),
     "a negative weight": (("--weight", "foot_r1=-3"), "negative"),
+    "a weight twice": (("--weight", "foot_r1=3", "--weight", "foot_r1=1"), "foot_r1 is given twice"),
     "no such coordinate": (("--hold", "elbow=3"), "'elbow=3' is not in the model"),
     "a span without end": (("--time", "0.3"), "'0.3' is not a span"),
     "a span before the recording": (("--time", "7:8"), "no frame between 7 and 8 s"),
@@ -623,6 +624,10 @@ ID_REFUSED = {
     "a cut-off above half the rate": (("--cutoff", "70"), "--cutoff"),
     "a negative cut-off": (("--cutoff", "-1"), "-1 Hz cannot be a cut-off frequency"),
     "no such span": (("--time", "3:4"), "no frame between 3 and 4 s"),
+    "a plate twice": (
+        ("--plates", __file__, "--plate", "1=foot_r", "--plate", "1=foot_l"),
+        "plate 1 is given twice: its force would act twice",
+    ),
 }
 
 

@@ -100,8 +100,8 @@ def test_no_cuff_where_the_arm_is(tmp_path: Path) -> None:
     ("text", "words"),
     [
         ("arm = 3", "none of upper_arm, shoulder_width, torso"),
-        ("upper_arm = 300", 'upper_arm: is not a value with its unit; write upper_arm = { value = 300, unit = "mm" }'),
-        ('upper_arm = { value = 3, unit = "m" }', "3000 mm is not a length of a person; that is 100 to 1000 mm"),
+        ("upper_arm = 300", 'upper_arm: is not a value with its unit; write upper_arm = { value = …, unit = "mm" }'),
+        ('upper_arm = { value = 3, unit = "m" }', "3000 mm cannot be a length of a person: that is 100 to 1000 mm"),
     ],
 )
 def test_a_person_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:

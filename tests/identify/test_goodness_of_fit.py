@@ -13,6 +13,7 @@ from geocontact.identify.goodness_of_fit import (
     Doubt,
     GoodnessOfFit,
     of_bounds,
+    of_each,
     of_low_r2,
     of_many_r2,
     of_r2,
@@ -113,3 +114,11 @@ def test_the_record_says_it_first() -> None:
         judge(GoodnessOfFit((Doubt("R² is -1", True), Doubt("k is on a bound", False)), ("k",)))
     assert record.fit is not None and record.fit.tested == ("force", "k") and len(record.fit.doubts) == 2
     assert record.judged.startswith("the result contradicts its data")
+
+
+def test_one_number_that_is_missed_is_a_doubt_whatever_the_others_are() -> None:
+    """Three numbers with deviations of 2, one missed by 3.1 of them: its mean square, 3.2, is no excess for three."""
+    off = {"a": (0.0, 2.0), "b": (-6.2, 2.0), "c": (0.0, 2.0), "d": (5.9, 2.0), "e": (9.0, 0.0)}
+    (doubt,) = of_each("the model", off, "N")
+    assert doubt == Doubt("the model is -6.2 N off b, 3.1 times its standard deviation", False, 3.1)
+    assert not [*of_residual("numbers", "N", np.array([0.0, -6.2, 0.0]), 2.0)]

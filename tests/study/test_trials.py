@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from geocontact.study.address import Digests, address_of
 from geocontact.study.code_version import CodeSources, code_version
 from geocontact.study.description import read_study_file
 from geocontact.study.steps import runs_of
-from geocontact.study.trials import CohortTrial
+from geocontact.study.trials import CohortTrial, literal
 from tests.study.quick import QuickOptions, quick
 
 
@@ -72,6 +73,27 @@ def test_trials_that_are_listed_have_options_of_their_own(data: Path) -> None:
     ]
     assert found[0].options == {"motion": "P1/a.csv", "rate": 5, "threshold": 1}
     assert found[2].options == {"motion": "P2/b.csv", "rate": 2, "map": "rz=right", "threshold": 1}
+
+
+def test_braces_of_paths_are_doubled(tmp_path: Path) -> None:
+    """Beside names, around them, and in the pattern of files; other signs of patterns are those of the path."""
+    for name in ("run {1}/[a]?/P1_x.csv", "run {1}/[a]?/P2_x.csv", "run {2}/[a]?/P3_x.csv", "run {1}/ab/P4_x.csv"):
+        (tmp_path / name).parent.mkdir(exist_ok=True, parents=True)
+        (tmp_path / name).touch()
+    found = trials(
+        tmp_path,
+        'files = "run {{1}}/[a]?/{subject}_x.csv"\n[options]\nmotion = "{file}"\nrate = 5\n'
+        'names = ["{{subject}}", "{{{subject}}}", "{{}}", "{ {{a}"]\n',
+    )
+    assert [one.name for one in found] == ["P1", "P2"]
+    assert found[0].options["motion"] == "run {1}/[a]?/P1_x.csv"
+    assert found[0].options["names"] == ["{subject}", "{P1}", "{}", "{ {a}"]
+
+
+@pytest.mark.parametrize("text", ["a{b}c", "{", "}{", "{{x}}", "{{{", "plain", "{a}{b}", "{ a:b }"])
+def test_a_literal_text_is_what_an_option_gets(tmp_path: Path, text: str) -> None:
+    option = json.dumps([literal(text)])
+    assert trials(tmp_path, f'[options]\nnames = {option}\n[vary]\na = ["1"]\n')[0].options["names"] == [text]
 
 
 @pytest.mark.parametrize(

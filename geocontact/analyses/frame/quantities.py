@@ -77,6 +77,8 @@ def named_numbers(texts: Iterable[str], option: str) -> dict[str, float]:
     found = {}
     for text in texts:
         name, _, value = text.partition("=")
+        if name in found:
+            raise InputError("", option, f"{name} is given twice", "give each once")
         try:
             found[name] = float(value)
         except ValueError:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -106,7 +108,7 @@ def _standing(file: Path, mesh: Mesh) -> list[SetLandmark]:
 
 
 def write_surface_page(surface: Path, unit: str, out: Path | None = None, landmarks: Path | None = None) -> Path:
-    """Write the page of a mesh file and return its path: NAME_surface.html here by default, renewed where it is one.
+    """Write the page of a mesh file and return its path: NAME_surface.html here by default, renewed where it is its.
 
     Raises
     ------
@@ -117,6 +119,9 @@ def write_surface_page(surface: Path, unit: str, out: Path | None = None, landma
     target = Path(f"{surface.stem}_surface.html") if out is None else out
     if target.exists() and not _is_page_of_a_surface(target):
         raise InputError(target, "", "is there already and is no page of a surface", "name another file with `out`")
+    if target.exists() and out is None and not _is_page_of_a_surface(target, surface.name):
+        what = f"is there already and is the page of another surface than {surface.name}"
+        raise InputError(target, "", what, "name another file with `out`")
     try:
         write_page(page, target)
     except FileNotFoundError as error:
@@ -124,8 +129,12 @@ def write_surface_page(surface: Path, unit: str, out: Path | None = None, landma
     return target
 
 
-def _is_page_of_a_surface(path: Path) -> bool:
+def _is_page_of_a_surface(path: Path, name: str | None = None) -> bool:
+    """Whether a file is such a page, of the mesh file of that name where one is given."""
     if not path.is_file():
         return False
     with open_file(path) as stream:
-        return b'id="picking"' in stream.read()
+        text = stream.read()
+    title = re.search(rb"<title>(.*?)</title>", text)
+    same = name is None or (title is not None and unescape(title[1].decode("utf-8", "replace")) == name)
+    return b'id="picking"' in text and same

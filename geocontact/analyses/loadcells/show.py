@@ -266,14 +266,7 @@ def loadcell_page(
         facts=_facts(recorded, NEWTON),
         reservations=(part,) if len(shown.kept) < len(forces.time) else (),
         start_frame=int(np.nanargmax(shown.of(forces.total))),
-        sections=(
-            *own,
-            *results,
-            _weights(regression),
-            Words(
-                "What the numbers do not contain", [CELLS, f"Weights of the cells: {regression.source}.", NOT_A_DEVICE]
-            ),
-        ),
+        sections=(*own, *results, *_of_the_cells(regression)),
         numbers=shown.numbers,
         total=shown.total,
         choices=choices,
@@ -342,6 +335,12 @@ def _facts(recorded: RecordedCells, unit: ForceUnit) -> list[tuple[str, str]]:
     k = int(np.argmax(f.total))
     lines.append(("Medial share at the largest total", f"{f.medial[k] / f.total[k]:.0%}"))
     return lines
+
+
+def _of_the_cells(r: CellRegression) -> tuple[Table, Words]:
+    """Their weights, and what these leave out."""
+    said = [CELLS, f"Weights of the cells: {r.source}.", NOT_A_DEVICE]
+    return _weights(r), Words("What the numbers do not contain", said)
 
 
 def _weights(r: CellRegression) -> Table:

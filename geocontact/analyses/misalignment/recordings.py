@@ -14,6 +14,7 @@ from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.motion.checked_trial import check_trial
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.data.errors import InputError
+from geocontact.data.text import same_place
 from geocontact.identify.signals.filters import at_times, even_times, zero_lag
 from geocontact.io.recordings import elbow_recording as channels
 from geocontact.io.recordings.elbow_recording import read_elbow_recording
@@ -42,7 +43,7 @@ def recordings(
     columns = {} if mapping is None else parse_map(mapping, channels.CHANNELS)
     found: list[ElbowRecording] = []
     for path in paths:
-        if path.stem in [r.name for r in found]:
+        if same_place([*(r.name for r in found), path.stem]):
             raise InputError(path, "", f"is the second recording named {path.stem!r}", "rename one")
         raw = read_elbow_recording(path, columns, angles, unit, needed)
         add_input(role, path, samples=len(raw.time))

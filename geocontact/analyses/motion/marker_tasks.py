@@ -250,5 +250,7 @@ def _named(texts: tuple[str, ...], option: str, names: set[str], example: str) -
         if not equals or name not in names:
             what = f"'{text}' is not in the model"
             raise InputError("", option, what, f"write for example {example}; there are {listed(tuple(sorted(names)))}")
+        if name in found:
+            raise InputError("", option, f"{name} is given twice", "give each once")
         found[name] = number(value, option, example)
     return found

@@ -22,8 +22,6 @@ from geocontact.shoulder_exoskeleton.support.profile_limits import FactorKey, Ha
 from geocontact.shoulder_exoskeleton.work_phases import PHASES
 
 LENGTHS = ("upper_arm", "shoulder_width", "torso")
-SHORTEST, LONGEST = 0.1, 1.0
-"""Lengths of a person [m] that are plausible."""
 UNITS = {name: quantity.unit for name, quantity in QUANTITIES.items()}
 HINGE_UNITS = {name: quantity.unit for name, quantity in HINGES.items()}
 CONTROLLER_UNITS = {name: quantity.unit for name, quantity in CONTROLLED.items()}
@@ -109,13 +107,9 @@ def wearer_named(file: Path | None, *, back: bool = False) -> Wearer:
 
 
 def wearer_of_lengths(file: Path, lengths: Mapping[str, float]) -> Wearer:
-    """The usual wearer with the lengths [m] that are known, from a file; InputError for those of no person."""
+    """The usual wearer with the lengths [m] that are known, from a file."""
     if not lengths:
         reserve(f"{file.name}: no lengths of the person; the device is adjusted to the usual ones (invented)")
-    for name, value in lengths.items():
-        if not SHORTEST <= value <= LONGEST:
-            what = f"{1e3 * value:g} mm is not a length of a person"
-            raise InputError(file, f"`{name}`", what, f"that is {1e3 * SHORTEST:g} to {1e3 * LONGEST:g} mm")
     return Wearer(**lengths)
 
 

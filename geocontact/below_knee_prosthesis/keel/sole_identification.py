@@ -38,12 +38,15 @@ class IdentifiedSole:
         EI and that stiffness.
     stiffnesses
         Of each compression on the sole [N/m].
+    deviations
+        Standard deviations of the measured ones, with those of fulcrums that were sought [N/m].
     """
 
     foot: VariableStiffnessFoot
     zone: str
     numbers: tuple[IdentifiedNumber, ...]
     stiffnesses: tuple[float, ...]
+    deviations: tuple[float, ...]
 
 
 def _pressed(sole: KeelSole, law: SoleLaw, zone: str) -> tuple[str, str, float]:
@@ -98,4 +101,7 @@ def identified_sole(
         by_logarithm(*_pressed(foot.sole, law, zone), float(half[1])),
     )
     keel = replace(keel, bending=float(keel.bending), torsional=float(keel.torsional))
-    return IdentifiedSole(replace(foot, keel=keel, law=law), zone, numbers, tuple(map(float, np.exp(here))))
+    deviations = np.sqrt(variance) * [stiffness for stiffness, _ in slopes]
+    return IdentifiedSole(
+        replace(foot, keel=keel, law=law), zone, numbers, tuple(map(float, np.exp(here))), tuple(map(float, deviations))
+    )

@@ -233,13 +233,16 @@ def check_settings(settings: CaseSettings, path: Path, known_systems: tuple[str,
 
     That is a system that is neither one of `known_systems` nor written `package.module:OBJECT`, a trial listed twice,
     covariates of a trial that is not listed, a covariate that is a number here and a word there, a name that is both
-    constant and parameter.
+    constant and parameter, negative noise.
     """
     file = fspath(path)
     _check_system(settings.system, known_systems, file)
     _check_program(settings, file)
     _check_trials(settings, file)
     _check_names(settings, file)
+    for channel, sd in settings.noise.items():
+        if sd < 0.0:
+            raise InputError(file, f"[noise] {channel}", f"is {sd:g}", "a standard deviation is positive")
 
 
 def parameters_of(settings: CaseSettings, path: Path) -> tuple[Parameter, ...]:

@@ -237,10 +237,8 @@ def _trial(name: str, table: TrialTable, settings: CaseSettings) -> Trial:
 
 
 def _stated_noise(noise: dict[str, float], file: Path) -> dict[str, float]:
-    """Noise that says something: a standard deviation of 0 is left out with a warning, a negative one refused."""
+    """Noise that says something: a standard deviation of 0 is left out with a warning."""
     for channel, sd in noise.items():
-        if sd < 0.0:
-            raise InputError(file, f"[noise] {channel}", f"is {sd:g}", "a standard deviation is positive")
         if sd == 0.0:
             message = f"{file} [noise] {channel}: is 0; taken as not known"
             warnings.warn(InputWarning(message), stacklevel=3)

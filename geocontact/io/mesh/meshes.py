@@ -86,22 +86,9 @@ def read_mesh(
         MERGED.require(merge_tolerance, "`merge_tolerance`")
     name = Path(fspath(path)).name
     scale = metres_per(unit, name)
-    reader = READERS.get(Path(name).suffix.lower())
-    if reader is None:
-        what = f"is not one of the formats that are read ({', '.join(READERS)})"
-        remedy = "convert it, or correct the file name's ending"
-        if Path(name).suffix.lower() in TABLES:
-            what, remedy = "is a table, not a surface of triangles", "make triangles of its points first"
-        raise InputError(fspath(path), "", what, remedy)
+    reader = _reader_of(path)
     try:
-        data = read_bytes(path)
-        space = space_of_stl(data) if reader is read_stl else ""
-        sha256 = hashlib.sha256(data).hexdigest()
-        if reader is read_step:
-            require_unit_of_step(data, unit, name)
-        vertices, faces = reader(data, name)
-        del data
-        require_finite(vertices, faces, name)
+        vertices, faces, sha256, space = _surface_in(path, reader, unit, name)
         vertices, faces = merge_coincident(vertices, faces, name)
         if merge_tolerance is not None:
             vertices, faces = merge_close(vertices, faces, merge_tolerance, scale, name)
@@ -111,3 +98,29 @@ def read_mesh(
     metres = vertices.astype(np.float64) * scale
     check_faces(metres, faces, name)
     return Mesh(metres, faces, name, unit, sha256, space)
+
+
+def _surface_in(
+    path: str | PathLike[str], reader: _Reader, unit: str, name: str
+) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "m 3"], str, str]:
+    """Vertices as the file has them, faces, its SHA-256 and the anatomical space that it states."""
+    data = read_bytes(path)
+    space = space_of_stl(data) if reader is read_stl else ""
+    sha256 = hashlib.sha256(data).hexdigest()
+    if reader is read_step:
+        require_unit_of_step(data, unit, name)
+    vertices, faces = reader(data, name)
+    require_finite(vertices, faces, name)
+    return vertices, faces, sha256, space
+
+
+def _reader_of(path: str | PathLike[str]) -> _Reader:
+    """What reads a file of that ending; InputError where nothing does."""
+    ending = Path(fspath(path)).suffix.lower()
+    if ending in READERS:
+        return READERS[ending]
+    what = f"is not one of the formats that are read ({', '.join(READERS)})"
+    remedy = "convert it, or correct the file name's ending"
+    if ending in TABLES:
+        what, remedy = "is a table, not a surface of triangles", "make triangles of its points first"
+    raise InputError(fspath(path), "", what, remedy)

@@ -70,29 +70,49 @@ def read_motion(
     >>> len(gait.time), gait.poses.translation.shape
     (101, (101, 3))
     """
+    suffix = _suffix_of(path)
+    _require_model_and_joint(osim, joint)
+    if suffix in ROWS and is_pose_rows(path):
+        _refuse_columns(osim, mapping, grood_suntay_side)
+        return motion_from_rows(path, unit, rate)
+    _refuse_text(path, suffix)
+    if osim is not None and joint is not None:
+        return motion_from_joint(read_table(path), read_joint(osim, joint), moving, angles)
+    if grood_suntay_side is not None:
+        return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, _bone(moving), angles)
+    if mapping is not None:
+        return motion_from_map(read_table(path), mapping, order, angles)
+    if suffix not in CELLS:
+        raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")
+    return motion_from_csv(path, order, angles)
+
+
+def _bone(moving: str) -> str:
+    """Which bone of a knee moves in the other one."""
+    return "tibia" if moving == "child" else "femur"
+
+
+def _suffix_of(path: str | PathLike[str]) -> str:
+    """Ending of a file in small letters; InputError for one that is not read."""
     suffix = Path(fspath(path)).suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(path, "", "is not a motion file that is read", f"give one of {', '.join(SUFFIXES)}")
+    return suffix
+
+
+def _require_model_and_joint(osim: str | PathLike[str] | None, joint: str | None) -> None:
+    """InputError for one of them without the other."""
     if (osim is None) != (joint is None):
         missing, given = ("`joint`", "`osim`") if joint is None else ("`osim`", "`joint`")
         remedy = "give the model" if osim is None else f"joints of the model are: {listed(joint_names(osim))}"
         raise InputError("", missing, f"is missing with {given}", remedy)
-    if suffix in ROWS and is_pose_rows(path):
-        _refuse_columns(osim, mapping, grood_suntay_side)
-        return motion_from_rows(path, unit, rate)
+
+
+def _refuse_text(path: str | PathLike[str], suffix: str) -> None:
+    """InputError for a .txt, which holds rows of numbers or nothing that is read."""
     if suffix == ".txt":
         what = "the first row of a .txt is not the 16 or 12 numbers of a pose"
         raise InputError(path, "", what, "give rows of numbers, or a .csv whose header names its columns")
-    if osim is not None and joint is not None:
-        return motion_from_joint(read_table(path), read_joint(osim, joint), moving, angles)
-    if grood_suntay_side is not None:
-        body = "tibia" if moving == "child" else "femur"
-        return motion_from_grood_suntay(read_table(path), mapping, grood_suntay_side, body, angles)
-    if mapping is not None:
-        return motion_from_map(read_table(path), mapping, order, angles)
-    if suffix in CELLS:
-        return motion_from_csv(path, order, angles)
-    raise InputError(path, "", "coordinates need a model to become poses", "give `osim` and `joint`, or `map`")
 
 
 def _refuse_columns(osim: object, mapping: str | None, side: str | None) -> None:

@@ -97,6 +97,10 @@ def _inertia(file: str, element: Element) -> Float[np.ndarray, "3 3"]:
         moments = numbers_of(file, element, "inertia", 6)
     else:
         moments = np.array([numbers_of(file, element, f"inertia_{ij}", 1, (0.0,))[0] for ij in _MOMENTS])
+    for axis, moment in zip("xyz", moments[:3], strict=True):
+        if moment < 0.0:
+            what = f"{moment:g} kg m^2 about {axis} is negative"
+            raise InputError(file, f"{label(element)} <inertia>", what, "correct the model")
     xx, yy, zz, xy, xz, yz = moments
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 

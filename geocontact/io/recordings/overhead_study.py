@@ -51,6 +51,7 @@ from geocontact.data.plausible import KG, PERSON, N, Plausible
 from geocontact.io.document_errors import refusal
 from geocontact.io.documents import Document, File, Holds, Listed, WithUnit, Word, doubled, read_document
 from geocontact.io.recordings.described_person import DescribedPerson
+from geocontact.io.recordings.shoulder_device import OF_PERSON
 
 TOOL = Plausible("the mass of a tool in the hands of a person", KG, (0.0, 100.0), (0.05, 10.0), or_zero=True)
 PUSH = Plausible("the force of a person on the work", N, (0.0, 2000.0), (5.0, 400.0), or_zero=True)
@@ -58,7 +59,7 @@ LENGTHS = ("upper_arm", "shoulder_width", "torso")
 """Lengths of a person, to which a device is adjusted."""
 SAME_ARM = 0.1
 """Share by which two lengths of one upper arm may differ."""
-Length = Annotated[float, WithUnit("m")]
+Length = Annotated[float, WithUnit(OF_PERSON)]
 
 
 def _span(value: Any) -> tuple[float, float]:

@@ -10,10 +10,14 @@ from typing import Annotated, Any
 from pydantic import create_model
 
 from geocontact.data.errors import InputError
+from geocontact.data.plausible import Plausible
+from geocontact.data.units import mm
 from geocontact.io.document_errors import refusal
 from geocontact.io.documents import Document, Some, WithUnit, Word, checked
 from geocontact.io.text.toml_text import toml_of
 
+OF_PERSON = Plausible("a length of a person", mm, (100.0, 1000.0))
+"""Upper arm, torso, or between the shoulders."""
 LARGEST = 100_000
 """Bytes of a description."""
 
@@ -121,7 +125,7 @@ def read_device_file(
 
 def read_person_file(path: Path, names: tuple[str, ...]) -> dict[str, float]:
     """Lengths of a person [m] from a TOML file, `upper_arm = { value = 300, unit = "mm" }`; any may be missing."""
-    length = WithUnit("m")
+    length = WithUnit(OF_PERSON)
     content = {name: each for name, each in toml_of(path, LARGEST).items() if name in names}
     if not content:
         raise InputError(path, "", f"none of {', '.join(names)}", f"write upper_arm = {length.example}")

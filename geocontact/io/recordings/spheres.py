@@ -4,7 +4,6 @@ them.
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 import warnings
@@ -12,6 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -20,8 +20,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from geocontact.data.errors import InputError, InputWarning
 from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import LARGEST_MEANT, TOO_LARGE
+from geocontact.io.document_errors import BOUNDS, CHECK
 from geocontact.io.text.column_names import spelled_as
-from geocontact.io.text.csv_text import text_of
+from geocontact.io.text.csv_text import dict_rows
 from geocontact.io.text.file_preflight import read_text_bytes
 from geocontact.io.text.plain_table import is_sheet, open_plain
 from geocontact.io.text.tables import unequal
@@ -64,14 +65,18 @@ class SphereTable:
     exponent: float | None
 
 
+Positive = Annotated[float, Field(gt=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0)]
+
+
 class ZoneLaw(BaseModel):
     """Stiffness [N/m^n], damping [N s/m] and friction, static and kinetic, of a zone."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-    k: float | None = None
-    b: float | None = None
-    mu_s: float | None = None
-    mu_k: float | None = None
+    k: Positive | None = None
+    b: NotNegative | None = None
+    mu_s: NotNegative | None = None
+    mu_k: NotNegative | None = None
 
 
 class FootLaw(BaseModel):
@@ -103,14 +108,14 @@ class LawFile(BaseModel):
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-    k: float | None = None
-    b: float | None = None
-    n: float | None = None
-    delta_full: float | None = None
-    mu_s: float | None = None
-    mu_k: float | None = None
-    v_th: float | None = None
-    columns: int | None = None
+    k: Positive | None = None
+    b: NotNegative | None = None
+    n: Positive | None = None
+    delta_full: Positive | None = None
+    mu_s: NotNegative | None = None
+    mu_k: NotNegative | None = None
+    v_th: Positive | None = None
+    columns: Annotated[int, Field(gt=0)] | None = None
     zone: dict[str, ZoneLaw] = {}
     foot: FootLaw | None = None
 
@@ -159,6 +164,9 @@ def read_law(path: str | PathLike[str]) -> LawFile:
         place = ".".join(map(str, first["loc"]))
         what = "is not known here" if first["type"] == "extra_forbidden" else first["msg"].lower()
         remedy = "it may have k, b, n, delta_full, mu_s, mu_k, v_th, and k, b, mu_s, mu_k in [zone.NAME]"
+        if first["type"] in BOUNDS:
+            what = f"{first['input']:g} is not {BOUNDS[first['type']]} {next(iter(first['ctx'].values())):g}"
+            remedy = CHECK
         if place.startswith("foot"):
             remedy = "[foot] has height, height_sd [m], pitch, pitch_sd [rad] and standing, a SHA-256"
         raise InputError(file, place, what, remedy) from error
@@ -318,8 +326,7 @@ def read_contact_parameters(
     path: Path, units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
 ) -> dict[str, float]:
     """Values by name in SI; InputError where one of `units` is missing, twice, in another unit or out of bounds."""
-    text = text_of(path, LARGEST, "a table of parameters").decode("utf-8")
-    rows = csv.DictReader(text.splitlines())
+    rows = dict_rows(path, LARGEST, "a table of parameters")
     if not {"parameter", "unit", "value"} <= set(rows.fieldnames or ()):
         remedy = "give parameters.csv of a calibration"
         raise InputError(path, "line 1", "has no columns parameter, unit and value", remedy)
@@ -353,7 +360,7 @@ def read_contact_intervals(path: Path, names: Collection[str]) -> dict[str, tupl
 
     InputError for an interval without room.
     """
-    rows = csv.DictReader(text_of(path, LARGEST, "a table of parameters").decode("utf-8").splitlines())
+    rows = dict_rows(path, LARGEST, "a table of parameters")
     found: dict[str, tuple[float, float]] = {}
     for row in rows:
         if row.get("parameter") in names:

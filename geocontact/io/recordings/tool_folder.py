@@ -21,11 +21,13 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from geocontact.data.errors import InputError
+from geocontact.data.text import same_place
 from geocontact.io.text.file_preflight import read_json, read_text_bytes
 from geocontact.io.text.tables import listed
 from geocontact.io.text.toml_text import toml_of
@@ -131,6 +133,9 @@ def read_tool_folder(path: str | PathLike[str]) -> ToolFolder:
     for kind in (_opencap, _addbiomechanics, _pose2sim, _laboratory):
         found = kind(root)
         if found is not None:
+            if twice := same_place(trial.name for trial in found.trials):
+                what = f"two trials are called {twice}, in small and in capital letters"
+                raise InputError(root, "", what, "rename one: their results would share a folder")
             return replace(found, unused=_count_of_others(found))
     if any(file.suffix.lower() == ".b3d" for file in _files(root)):
         raise InputError(root, "", "holds AddBiomechanics' .b3d only", B3D)
@@ -317,7 +322,12 @@ def _named(folder: Path, ending: str) -> list[Path]:
     if not folder.is_dir():
         return []
     files = (file for file in folder.iterdir() if file.suffix.lower() == ending and file.is_file())
-    return sorted(file for file in files if not file.name.startswith("."))
+    found = sorted(file for file in files if not file.name.startswith("."))
+    if same_place(file.name for file in found):
+        one, other = next(pair for pair in combinations([f.name for f in found], 2) if same_place(pair))
+        what = f"{one} and {other} differ in capital letters only"
+        raise InputError(folder, "", what, "rename one: both would be one trial")
+    return found
 
 
 def _by_stem(folder: Path, ending: str, tail: str = "") -> dict[str, Path]:
@@ -336,12 +346,19 @@ def _files_of(trial: FolderTrial) -> set[Path]:
     return {each for each in (*own, *trial.forces, *trial.rival_loads) if each is not None}
 
 
+SESSION = ("mass_kg", "height_m", "openSimModel")
+"""Keys of a session of OpenCap that are read."""
+
+
 def _session(file: Path) -> FolderPerson | None:
     """Keys of the first level of OpenCap's YAML, each a line `mass_kg: 83.0`."""
     if not file.is_file():
         return None
     lines = read_text_bytes(file, LARGEST_TEXT).decode("utf-8-sig", errors="replace").splitlines()
-    given = dict(line.split(":", 1) for line in lines if re.match(r"\w+:", line))
+    pairs = [line.split(":", 1) for line in lines if re.match(r"\w+:", line)]
+    given = dict(pairs)
+    if twice := next((key for key in SESSION if [each for each, _ in pairs].count(key) > 1), ""):
+        raise InputError(file, twice, "is there twice", "keep one of them")
     mass, height = (_size(file, key, given.get(key, "").strip()) for key in ("mass_kg", "height_m"))
     return FolderPerson(file, mass, height, given.get("openSimModel", "").strip().strip("'\""))
 
@@ -349,6 +366,8 @@ def _session(file: Path) -> FolderPerson | None:
 def _subject(file: Path) -> FolderPerson:
     try:
         given = read_json(file)
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(file, "", "is not JSON", "download the subject again") from error
     given = given if isinstance(given, dict) else {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import StringIO, TextIOBase
@@ -109,12 +109,23 @@ def _columns(header: str, file: str, line: int) -> tuple[Column, ...]:
     columns = tuple(
         _column(*split_header(cell), f"line {line}, column {number}", file) for number, cell in enumerate(cells, 1)
     )
-    names = [column.name for column in columns]
-    for name in names:
+    require_once([column.name for column in columns], file, f"line {line}")
+    return columns
+
+
+def require_once(names: Sequence[str], file: str | Path, place: str) -> None:
+    """InputError for a column that is named twice; those without a name are none."""
+    for name in filter(None, names):
         if names.count(name) > 1:
             what = f"column '{name}' occurs {names.count(name)} times"
-            raise InputError(file, f"line {line}", what, "give each column a name of its own")
-    return columns
+            raise InputError(file, place, what, "give each column a name of its own")
+
+
+def dict_rows(path: Path, most_bytes: int, kind: str) -> csv.DictReader[str]:
+    """Rows of a table of words by the names of its columns, none of which is there twice; InputError as `text_of`."""
+    rows = csv.DictReader(text_of(path, most_bytes, kind).decode("utf-8").splitlines())
+    require_once(rows.fieldnames or (), path, "line 1")
+    return rows
 
 
 def _cells(header: str, file: str, line: int) -> list[str]:

@@ -209,8 +209,20 @@ LARGEST_JSON = 64_000_000
 
 
 def read_json(path: str | PathLike[str]) -> Any:
-    """Content of a JSON file; ValueError or RecursionError where it is none, InputError where it cannot be read."""
-    return json.loads(read_bytes(path, LARGEST_JSON, "name the file itself"))
+    """Content of a JSON file; ValueError or RecursionError where it is none, InputError where it cannot be read.
+
+    An object that has a key twice cannot: which of both values is meant nobody knows.
+    """
+
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found = dict(pairs)
+        if len(found) < len(pairs):
+            keys = [key for key, _ in pairs]
+            twice = next(key for key in keys if keys.count(key) > 1)
+            raise InputError(path, "", f"the key {json.dumps(twice)[:80]} is there twice", "keep one of them")
+        return found
+
+    return json.loads(read_bytes(path, LARGEST_JSON, "name the file itself"), object_pairs_hook=once)
 
 
 def looks_like(data: bytes) -> tuple[str, str]:

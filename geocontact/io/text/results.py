@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Iterable, Mapping
 from io import StringIO
@@ -19,6 +20,7 @@ from geocontact.data.magnitude import too_large
 from geocontact.data.plausible import TOO_LARGE
 from geocontact.data.text import is_late, seconds
 from geocontact.io.text.column_names import spelled_as
+from geocontact.io.text.csv_text import require_once
 from geocontact.io.text.plain_table import open_plain
 from geocontact.io.text.units import si_unit, split_header
 
@@ -42,6 +44,8 @@ def read_frame(path: Path, wanted: Iterable[str], remedy: str) -> pd.DataFrame:
         wide = next((number for number, line in enumerate(text.split("\n"), 1) if line.count(",") > MOST_CELLS), 0)
         if wide:
             raise InputError(path, f"line {wide}", f"more than {MOST_CELLS} cells", remedy)
+        names = next((line for line in text.split("\n") if line.strip() and not line.startswith("#")), "")
+        require_once([name.strip() for name in next(csv.reader([names]), [])], path, "")
         table = pd.read_csv(StringIO(text), comment="#")
     except InputError:
         raise

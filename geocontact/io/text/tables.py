@@ -144,12 +144,17 @@ class TextTable(Signals):
     time_unit: str = "s"
     words: tuple[str, ...] = ()
 
+    def column(self, name: str) -> Float[np.ndarray, " t"]:
+        """Values of one channel; KeyError where there is none of that name, InputError where there are several."""
+        if (count := self.channels.count(name)) > 1:
+            what = f"column '{name}' occurs {count} times"
+            raise InputError(self.file, "", what, f"columns are: {listed(self.channels)}")
+        return super().column(name)
+
     def needed(self, name: str) -> Float[np.ndarray, " t"]:
         """Values of a column that must be there once and finite; InputError otherwise."""
-        count = self.channels.count(name)
-        if count != 1:
-            what = f"no column '{name}'" if count == 0 else f"column '{name}' occurs {count} times"
-            raise InputError(self.file, "", what, f"columns are: {listed(self.channels)}")
+        if name not in self.channels:
+            raise InputError(self.file, "", f"no column '{name}'", f"columns are: {listed(self.channels)}")
         values = self.column(name)
         bad = np.flatnonzero(~np.isfinite(values))
         if len(bad):

@@ -170,6 +170,19 @@ def test_a_prior_and_bounds_as_the_papers(made: Path) -> None:
     assert sources["b"] == "known beforehand" and 0.060 <= result.numbers["z"] <= 0.130
 
 
+def test_a_prior_that_the_forces_contradict_is_a_doubt(made: Path) -> None:
+    """x is 48 mm here; a prior of 30 ± 1 mm cannot hold it, one of 30 ± 20 mm says nothing."""
+    said = {}
+    for sd in (1.0, 20.0):
+        found = identify(*locked(made), **KNOWN, prior={"x": gc.mm(30, sd)})
+        off = (1e3 * found.numbers["x"] - 30.0) / sd
+        said[sd] = [line for line in found.warnings if "off the mean of the prior of x" in line]
+        assert bool(said[sd]) == (abs(off) > 3.0), off
+        for line in said[sd]:
+            assert f"{sd * off:+.3g} mm off the mean of the prior of x, {abs(off):.3g} times its standard dev" in line
+    assert said[1.0] and not said[20.0]
+
+
 def test_recordings_that_were_held_out_tell_r2(made: Path) -> None:
     first, second, third = locked(made)
     (held,) = identify(first, second, held_out=(third,), **KNOWN).fit.held

@@ -40,6 +40,7 @@ from geocontact.analyses.gap.init.starts import require_trial_numbers, shared_nu
 from geocontact.chain.system import System
 from geocontact.data.errors import InputError
 from geocontact.data.gap_case import LISTED_SYSTEMS, GapCase
+from geocontact.data.text import same_place
 from geocontact.data.trial import Trial
 from geocontact.io.cases.case_settings import SETTINGS, CaseSettings
 from geocontact.io.cases.gap_case_writer import trial_table, write_tables
@@ -146,6 +147,9 @@ def read(o: InitOptions) -> GapCase:
     if len(files) < 3:
         what = f"holds {len(files)} .csv files"
         raise InputError(o.data, "", what, "give a file per trial: two to fit to and two held out at least")
+    if twice := same_place(each.stem for each in files):
+        what = f"two trials are called {twice}, in small and in capital letters"
+        raise InputError(o.data, "", what, "rename one: on Windows and macOS both would be one file")
     tables = alike({each.stem: read_trial(each) for each in files})
     for each in files:
         add_input("trial", each)

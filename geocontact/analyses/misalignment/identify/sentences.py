@@ -12,14 +12,14 @@ from geocontact.analyses.frame.collector import contradicted, if_it_fits, judge,
 from geocontact.analyses.frame.json_file import finite
 from geocontact.analyses.misalignment.identify.beside import described_beside, doubts_of, sentences_of
 from geocontact.analyses.misalignment.identify.fitted import Fitted, Free, ShownInterval, stroke_stiffness
-from geocontact.analyses.misalignment.law_numbers import MMHG, NUMBERS, with_units
+from geocontact.analyses.misalignment.law_numbers import MMHG, NUMBERS, PER_SI, WRITTEN, with_units
 from geocontact.axis_misalignment.bins import Binned
 from geocontact.axis_misalignment.compensation import EndStop
 from geocontact.axis_misalignment.law import LENGTHS, SCALED
 from geocontact.axis_misalignment.synthetic import ideal
 from geocontact.axis_misalignment.uncertainty import Direction
 from geocontact.data.plausible import Plausible
-from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_r2, of_size
+from geocontact.identify.goodness_of_fit import Doubt, GoodnessOfFit, of_each, of_r2, of_size
 from geocontact.identify.intervals.bin_tests import LEVEL, BinPair, BinTest
 from geocontact.identify.signals.agreement import clock_off, clock_words
 from geocontact.identify.signals.filters import even_times
@@ -57,7 +57,7 @@ def reserve_doubts(found: Fitted, free: Free | None) -> None:
 
 
 def against_the_forces(found: Fitted) -> GoodnessOfFit:
-    """The law against the forces that it was fitted to, and against those that were left out."""
+    """The law against the forces that it was fitted to, those that were left out, and priors."""
     excess = found.residuals.excess
     doubts = list(of_r2("the force that was fitted", found.r2))
     if excess.p < RARE and excess.ratio > MORE:
@@ -77,6 +77,9 @@ def against_the_forces(found: Fitted) -> GoodnessOfFit:
         if (known := SIZES.get(each.key)) is not None:
             ends = each.profile.lower, each.profile.upper
             doubts += of_size(each.words, ends, known)
+    for name, prior in found.estimate.problem.priors.items():
+        off = PER_SI[name] * (found.estimate.named[name] - prior.mean), PER_SI[name] * prior.sd
+        doubts += of_each("the fit", {f"the mean of the prior of {name}": off}, WRITTEN[name])
     doubts += doubts_of(found.beside)
     doubts += _of_clocks(found)
     others = [each.measured.name for each in found.beside.sensors]

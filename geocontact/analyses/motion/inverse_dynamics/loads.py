@@ -114,11 +114,14 @@ def _external_loads(o: IdOptions) -> tuple[Path | None, tuple[ExternalLoad, ...]
         file, loads = read_external_loads(o.loads)
         add_input("`loads`", o.loads, forces=len(loads))
         return file, loads
-    chosen = []
+    chosen: list[ExternalLoad] = []
     for text in o.plate:
         plate, equals, body = text.rpartition("=")
         if not equals:
             raise InputError("", "`plate`", f"'{text}' is not a plate and a body", "write 1=calcn_r")
+        if plate in [each.plate for each in chosen]:
+            what = f"plate {plate} is given twice: its force would act twice"
+            raise InputError("", "`plate`", what, "give each plate once")
         chosen.append(ExternalLoad(plate, body))
     return o.plates, tuple(chosen)
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from jaxtyping import Float
 
 from geocontact.analyses.frame.collector import add_input, listener, reserve
@@ -25,7 +24,7 @@ from geocontact.below_knee_prosthesis.design.varied import ALIGNMENTS, VariedFoo
 from geocontact.below_knee_prosthesis.keel.foot import VariableStiffnessFoot
 from geocontact.below_knee_prosthesis.leg import Person
 from geocontact.data.errors import InputError
-from geocontact.io.text.file_preflight import open_text
+from geocontact.io.text.results import read_frame
 
 COLUMNS = ("number", "value", "lower", "upper", "verdict")
 
@@ -93,13 +92,7 @@ def in_plane(foot: VariableStiffnessFoot) -> VariableStiffnessFoot:
 
 def _known(file: Path, zones: ZoneParameters) -> Float[np.ndarray, " p"]:
     """From intervals of known numbers; any other keeps its prior."""
-    try:
-        with open_text(file) as stream:
-            table = pd.read_csv(stream)
-    except InputError:
-        raise
-    except (OSError, ValueError) as error:
-        raise InputError(file, "", "cannot be read as a table", "give numbers.csv of prosthesis calibrate") from error
+    table = read_frame(file, COLUMNS, "give numbers.csv of prosthesis calibrate")
     missing = [name for name in COLUMNS if name not in table.columns]
     if missing:
         raise InputError(file, "", f"no column {missing[0]!r}", "give numbers.csv of prosthesis calibrate")
