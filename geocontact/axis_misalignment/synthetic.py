@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import accumulate
 
 import numpy as np
 from jaxtyping import Float
-from scipy.signal import lfilter
 
 from geocontact.axis_misalignment.compensation import taken_up
 from geocontact.axis_misalignment.explicit import Offsets, constraint_force, displacement
@@ -220,7 +220,7 @@ def _remembered(count: int, design: Design, rng: np.random.Generator) -> Float[n
     keep = float(np.exp(-1.0 / (design.rate * design.memory)))
     new = np.sqrt(1.0 - keep**2) * white
     new[0] = white[0]
-    return np.asarray(design.noise * lfilter([1.0], [1.0, -keep], new))
+    return design.noise * np.fromiter(accumulate(new.tolist(), lambda last, each: each + keep * last), float, count)
 
 
 def _converted(values: Float[np.ndarray, " t"], channel: str, design: Design) -> Float[np.ndarray, " t"]:

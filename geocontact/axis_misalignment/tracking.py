@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import rankdata
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from geocontact.data.elbow_recording import ElbowRecording
 from geocontact.identify.intervals.bin_tests import holm
@@ -141,13 +140,19 @@ def _goes(name: str, over: str, y: Float[np.ndarray, " n"], x: Float[np.ndarray,
     slope, left = _line(x, y)
     freedom = len(y) - 2
     error = left * np.sqrt(len(y) / freedom) / float(np.sqrt(np.sum((x - x.mean()) ** 2)))
-    half = float(student.ppf(0.975, freedom)) * error
+    half = float(stdtrit(freedom, 0.975)) * error
     rank, p = _spearman(y, x)
     return GoesWith(name, over, len(y), slope, slope - half, slope + half, rank, p)
 
 
+def _ranks(values: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """Ranks from 1; equal values share the mean of theirs."""
+    _, place, count = np.unique(values, return_inverse=True, return_counts=True)
+    return np.asarray((np.cumsum(count) - 0.5 * (count - 1))[place])
+
+
 def _spearman(y: Float[np.ndarray, " n"], x: Float[np.ndarray, " n"], seed: int = 0) -> tuple[float, float]:
-    a, b = rankdata(y), rankdata(x)
+    a, b = _ranks(y), _ranks(x)
     a, b = (a - a.mean()) / a.std(), (b - b.mean()) / b.std()
     rank = float(a @ b) / len(a)
     rng = np.random.default_rng(seed)

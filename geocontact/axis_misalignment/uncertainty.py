@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from geocontact.axis_misalignment.bins import FORCE, Binned
 from geocontact.axis_misalignment.law import GROWING, NAMES, SCALED
@@ -45,7 +45,7 @@ class Covariance:
 
     def half_width(self, k: int, level: float = 0.95) -> float:
         """Half the interval of the k-th free number if the law were linear."""
-        return float(student.ppf(0.5 + 0.5 * level, self.freedom) * np.sqrt(self.matrix[k, k]))
+        return float(stdtrit(self.freedom, 0.5 + 0.5 * level) * np.sqrt(self.matrix[k, k]))
 
     def cut(self, k: int, level: float = 0.95) -> float:
         """Rise of the sum of squares at which the profile of the k-th free number is cut."""

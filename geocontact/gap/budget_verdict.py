@@ -29,7 +29,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from geocontact.data.diagnosis import Partial
 from geocontact.gap.attribute import Attribution
@@ -216,4 +216,4 @@ def differ(sizes: Sequence[float], errors: Sequence[float]) -> bool:
     a, weights = np.asarray(sizes), 1.0 / np.maximum(np.asarray(errors), 1e-12) ** 2
     middle = float((weights * a).sum() / weights.sum())
     scatter = float((weights * (a - middle) ** 2).sum())
-    return bool(np.std(a, ddof=1) > LEFT_OVER and scatter > chi2.isf(np.exp(-SURE), len(a) - 1))
+    return bool(np.std(a, ddof=1) > LEFT_OVER and scatter > chdtri(len(a) - 1, np.exp(-SURE)))

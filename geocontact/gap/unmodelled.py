@@ -32,7 +32,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.stats import chi2, norm, t
+from scipy.special import ndtr, stdtrit
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.diagnosis import Unmodelled
@@ -57,6 +57,7 @@ from geocontact.gap.reduction.raw_input_errors import RawInputErrors
 from geocontact.gap.reduction.repeats import axes_of, shared
 from geocontact.gap.slips import Slip, share_of_time, slip_of
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
+from geocontact.identify.intervals.tails import chi_square_nats
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
 ZERO, LOST = "wandering_zero", "lost_samples"
@@ -174,7 +175,7 @@ def wandering_zero(found: Attribution, rest: AnswerResiduals, c: int) -> Unmodel
     spread = np.linalg.norm(blocks, axis=1) * np.sqrt(BLOCKS * mean_of / max(1.0 - mean_of, SLIGHT))
     off, n = np.array(sizes) - np.average(sizes, weights=counts), np.array(counts)
     made = np.maximum(np.hypot(spread, usual), 1e-300)
-    nats = float(-chi2.logsf(float(((off / made) ** 2).sum()), max(len(off) - 1, 1)))
+    nats = chi_square_nats(float(((off / made) ** 2).sum()), max(len(off) - 1, 1))
     if nats < SURE or (np.abs(off) / made).max() < DEVIATIONS:
         return None
     trials = dict(sorted(zip((t.name for t in found.problem.recorded.trials), map(float, off), strict=True)))
@@ -279,7 +280,7 @@ class Regions:
         count, square = len(self.sums), (self.sums**2).sum(axis=(0, 1))
         noise = ((self.sums - self.sums.mean(axis=0)) ** 2).sum(axis=(0, 1)) * count / max(count - 1, 1)
         freedom = np.maximum((count - 1) * np.repeat(widths, len(self.states)) / swells, 1.0)
-        few = t.isf(norm.sf(DEVIATIONS), freedom) / DEVIATIONS  # noise is known from as few that are independent
+        few = -stdtrit(freedom, ndtr(-DEVIATIONS)) / DEVIATIONS  # noise is known from as few that are independent
         spread = np.maximum(few * np.sqrt(swells * noise / np.maximum(square, 1e-300)), 1.0)
         (chance,) = family_wise([self.sums.reshape(-1, self.sums.shape[-1])], spread)
         return chance

@@ -6,16 +6,15 @@ the wrong side, an error of the signed distance of 1e-8 m on an implant.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Bool, Float, Int, Int8
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
-from geocontact.geometry.kernels.binary import Binary
-from geocontact.geometry.kernels.self_intersection import pierced
+if TYPE_CHECKING:
+    from geocontact.geometry.kernels.binary import Binary
 
 Body = Any
 """A `geometry.surface.Surface`, which is made of what is found here."""
@@ -33,6 +32,8 @@ def doubtful_faces(surface: Body, binary: Binary) -> Bool[np.ndarray, " m"]:
     not 0 in front and 1 behind, the patch is buried in another part or turned over. The segment from a point to its
     nearest face crosses nothing, so the sides of all other points are read from normals without doubt.
     """
+    from geocontact.geometry.kernels.self_intersection import pierced  # late: numba, for jobs without a surface
+
     merged = surface.topology.merged[surface.faces]
     marked = pierced(binary, surface.corners, merged)
     touched = np.zeros(len(surface.vertices), bool)
@@ -87,6 +88,8 @@ def normals_agree(surface: Body) -> bool:
 
 def disagreement(surface: Body) -> float:
     """Share of probes where the side by normals differs from the side by winding number, 0 for a sound closed body."""
+    from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances  # late: numba
+
     rng = np.random.default_rng(0)
     some = rng.permutation(len(surface.faces))[: PROBES // 4]
     step = 0.25 * np.sqrt(surface.face_area[some])[:, None] * surface.face_normal[some]

@@ -11,16 +11,14 @@ from jaxtyping import Bool, Float, Int, Int32
 
 from geocontact.data.mesh import Mesh, MeshFile, mesh_words, repeated_faces
 from geocontact.geometry.inside_outside import doubtful_faces, normals_agree, resolve_inside_outside
-from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
-from geocontact.geometry.kernels.binary import Binary, build
-from geocontact.geometry.kernels.tree import BoxTree
-from geocontact.geometry.kernels.triangle import LEAF, triangle_frames
-from geocontact.geometry.kernels.wide import ROWS, widen
 from geocontact.geometry.shapes import Proximity
 from geocontact.geometry.topology import Topology, neighbours, signed_volume, topology
 
 if TYPE_CHECKING:
     import igl
+
+    from geocontact.geometry.kernels.binary import Binary
+    from geocontact.geometry.kernels.tree import BoxTree
 
 EDGES = ((0, 1), (0, 2), (1, 2))
 """Corners of the record that each edge joins, in the order of `closest_point`."""
@@ -195,6 +193,8 @@ class Surface:
     @cached_property
     def face_normal(self) -> Float[np.ndarray, "m 3"]:
         """Unit normal of each face, zero where it has no area."""
+        from geocontact.geometry.kernels.triangle import triangle_frames  # late: numba, for jobs without a surface
+
         records = triangle_frames(self.local, self.faces)
         return np.where(records[:, 14:15] > 0.0, records[:, 3:6], 0.0) * (-1.0 if self.inside_out else 1.0)
 
@@ -223,6 +223,11 @@ class Surface:
     @cached_property
     def tree(self) -> BoxTree:
         """The bounded tree over the faces, about the centre."""
+        from geocontact.geometry.kernels.binary import build
+        from geocontact.geometry.kernels.tree import BoxTree
+        from geocontact.geometry.kernels.triangle import LEAF
+        from geocontact.geometry.kernels.wide import ROWS
+
         binary = build(*_boxes(self.corners))
         order = binary.order
         normals, row, boxes, child, leaves, slots, fill = self._laid_out(binary)
@@ -234,6 +239,9 @@ class Surface:
 
     def _laid_out(self, binary: Binary) -> tuple[np.ndarray, ...]:
         """Normals and their rows, boxes, children, leaves, slots and fill, where no face is in doubt."""
+        from geocontact.geometry.kernels.triangle import triangle_frames
+        from geocontact.geometry.kernels.wide import widen
+
         faces = np.ascontiguousarray(self.faces[binary.order])
         records = triangle_frames(self.local, faces)
         normals, row = pseudonormals(records, faces, self.topology.merged)
@@ -270,6 +278,8 @@ class Surface:
         Points farther than `limit` [m] get an infinite distance (negative deep inside), which is many times faster
         than finding out how far they are. NaN among the points is refused.
         """
+        from geocontact.geometry.kernels.batch import chunk_spheres, signed_distances
+
         points = np.ascontiguousarray(points, float)
         if not np.isfinite(points).all():
             raise ValueError("query points must be finite")

@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
-from scipy.integrate import solve_ivp
 from scipy.interpolate import make_interp_spline
 
 from geocontact.data.body_segments import BodySegments
@@ -287,6 +286,8 @@ class _Coupled:
 
     def stepped(self) -> Float[np.ndarray, "t x"]:
         """States at the frames until the arm leaves its range; ArithmeticError where they cannot be stepped."""
+        from scipy.integrate import solve_ivp  # late: only this bound steps by it
+
         s, time = self.s, self.s.motion.time
         start = np.concatenate([s.angles[0], s.rates[0], s.cylinder[:1], [0.0, 0.0]])
 

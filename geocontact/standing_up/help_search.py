@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 from jaxtyping import Float
+from scipy.special import stdtrit
 
 from geocontact.dynamics.collocation.solve import SolverOptions
 from geocontact.standing_up.assistance_design import KNEE, HelpDesign, HelpTask, designed
@@ -96,10 +97,8 @@ def gain_interval(draws: Sequence[DrawnGain], level: float = 0.95) -> tuple[floa
     """In which the gain of another draw lies, by Student's distribution; not numbers for fewer than two."""
     if len(draws) < 2:
         return float("nan"), float("nan")
-    from scipy.stats import t
-
     gains: Float[np.ndarray, " d"] = np.array([each.gain for each in draws])
-    reach = float(t.ppf(0.5 + 0.5 * level, len(gains) - 1) * gains.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(gains)))
+    reach = float(stdtrit(len(gains) - 1, 0.5 + 0.5 * level) * gains.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(gains)))
     return float(gains.mean()) - reach, float(gains.mean()) + reach
 
 

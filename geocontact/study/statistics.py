@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import f as fisher
+from scipy.special import fdtri
 
 LIMIT = 3.5
 """Score from which on a curve lies apart."""
@@ -90,7 +90,7 @@ def reliability(values: Float[np.ndarray, "n k"], confidence: float = 0.95) -> R
 def _consistency_interval(n: int, k: int, ratio: float, confidence: float) -> Interval:
     """McGraw and Wong, table 7: from F = R / E."""
     tail, error = 0.5 + 0.5 * confidence, (n - 1) * (k - 1)
-    low, high = ratio / fisher.ppf(tail, n - 1, error), ratio * fisher.ppf(tail, error, n - 1)
+    low, high = ratio / fdtri(n - 1, error, tail), ratio * fdtri(error, n - 1, tail)
     return float((low - 1) / (low + k - 1)), float((high - 1) / (high + k - 1))
 
 
@@ -100,7 +100,7 @@ def _agreement_interval(n: int, k: int, r: float, c: float, e: float, icc: float
     b = 1.0 + k * icc * (n - 1) / (n * (1.0 - icc))
     freedom = (a * c + b * e) ** 2 / ((a * c) ** 2 / (k - 1) + (b * e) ** 2 / ((n - 1) * (k - 1)))
     tail = 0.5 + 0.5 * confidence
-    low, high = fisher.ppf(tail, n - 1, freedom), fisher.ppf(tail, freedom, n - 1)
+    low, high = fdtri(n - 1, freedom, tail), fdtri(freedom, n - 1, tail)
     rest = k * c + (k * n - k - n) * e
     return float(n * (r - low * e) / (low * rest + n * r)), float(n * (high * r - e) / (rest + n * high * r))
 

@@ -76,15 +76,62 @@ USUAL = (
     "motion.inverse_kinematics.result",
     "motion.scale.result",
     "motion.virtual_markers.result",
+    "knee.settle.result",
+    "misalignment.design.result",
+    "misalignment.simulate.result",
+    "shape.result",
+    "thickness.result",
+)
+"""Modules of jobs that are called most and fit nothing, or only at some step."""
+NO_KERNEL = (
+    "cop.result",
+    "loadcells.result",
+    "motion.functional_joint.result",
+    "motion.inverse_dynamics.result",
+    "motion.inverse_kinematics.result",
+    "motion.scale.result",
+    "motion.virtual_markers.result",
     "shape.result",
 )
-"""Modules of the jobs that are called most."""
+"""Modules of jobs that may end without a surface, a filter or a law that numba compiles."""
 
 
 @pytest.mark.parametrize("module", USUAL)
 def test_a_job_starts_without_what_few_steps_need(module: str) -> None:
     program = f"import sys, geocontact.analyses.{module}; found = {SLOW} & set(sys.modules); assert not found, found"
     loaded_by(program)
+
+
+@pytest.mark.parametrize("module", NO_KERNEL)
+def test_a_job_that_may_call_no_kernel_starts_without_numba(module: str) -> None:
+    assert "numba" not in loaded_by(f"import geocontact.analyses.{module}")
+
+
+SELDOM = SLOW - {"scipy.interpolate", "scipy.optimize"}
+"""What takes longest and no job calls at once: `scipy.signal` brings `scipy.stats` along, 0.4 s together."""
+EVERY_JOB = f"""
+import sys
+from geocontact.analyses.catalogue import ENTRIES
+
+for entry in ENTRIES:
+    if entry.command not in ("", "gap benchmark"):
+        entry.load_job()
+        found = {SELDOM} & set(sys.modules)
+        assert not found, (entry.command, found)
+"""
+"""All jobs but the one that makes cases, one after the other: the first that loads something slow is named."""
+
+
+def test_no_job_starts_with_statistics_or_signals() -> None:
+    loaded_by(EVERY_JOB)
+
+
+@pytest.mark.slow
+def test_a_whole_simulation_needs_no_statistics_signals_or_fits(tmp_path: Path) -> None:
+    words = ["elbow", "simulate", "--trials", "1", "--seconds", "2", "--out", str(tmp_path / "out")]
+    never = {"scipy.optimize", "scipy.signal", "scipy.stats"}
+    program = f"import sys\nfrom geocontact.cli.main import run\nassert run({words}) == 0"
+    loaded_by(f"{program}\nfound = {never} & set(sys.modules)\nassert not found, found")
 
 
 def imported_at_the_top(file: Path) -> set[str]:

@@ -184,3 +184,17 @@ def test_sway_after_a_step_is_that_of_a_damped_oscillator() -> None:
 def test_ankles_without_reflexes_hold_nobody() -> None:
     with pytest.raises(ValueError, match=r"a stiffness of 0\.91 m g h holds nobody up"):
         InvertedPendulum(80.0, 1.8, 0.91)
+
+
+def test_sway_is_that_of_the_linear_system_and_refuses_uneven_times() -> None:
+    from scipy.signal import lsim
+
+    person, time = InvertedPendulum(70.0, 1.75), 0.01 * np.arange(400)
+    moment = np.random.default_rng(2).standard_normal(400).cumsum()
+    damping = 2.0 * person.damping * np.sqrt(person.inertia * person.left)
+    matrix = np.array([[0.0, 1.0], [-person.left / person.inertia, -damping / person.inertia]])
+    system = matrix, np.array([[0.0], [1.0 / person.inertia]]), np.array([[1.0, 0.0]]), np.zeros((1, 1))
+    _, expected, _ = lsim(system, moment, time, X0=np.array([0.3 / person.left, 0.0]))
+    np.testing.assert_allclose(person.sway(time, moment, 0.3), expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+    with pytest.raises(ValueError, match="even times"):
+        person.sway(time**1.1, moment, 0.3)

@@ -17,6 +17,7 @@ warning: numbers of the force law that were not given are assumed: n = 1.2, mu_s
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -46,9 +47,11 @@ from geocontact.analyses.frame.job import Job
 from geocontact.analyses.frame.result import REPORT
 from geocontact.data.errors import InputError
 from geocontact.data.frame_blocks import parts, worked
+from geocontact.geometry.shapes import HalfSpace
 from geocontact.io.text.results import frame_of
 from geocontact.loads.centre_of_pressure import POINTS, FootAxis, Smooth, axis_of_sole
 from geocontact.loads.centre_of_pressure import centre_of_pressure as centre_of
+from geocontact.loads.ground import Stairs
 from geocontact.loads.opensim_law import OpenSimLaw
 from geocontact.loads.resultant import pose_rate
 from geocontact.loads.sphere_set import SoleLaw, SphereLoads, beside, clearance, sphere_loads
@@ -177,7 +180,8 @@ def _loads(foot: Foot, o: CopOptions) -> SphereLoads:
     if len(foot.motion) == 1 and foot.law.needs_velocity:
         reserve(f"{o.motion} has one frame: the foot is assumed to stand still")
     try:
-        with listener().preparing():
+        # only a mesh asks a kernel: on other grounds numba is not even loaded
+        with nullcontext() if isinstance(foot.ground, HalfSpace | Stairs) else listener().preparing():
             loads = beside([_of_body(foot, k) for k in range(len(foot.carriers))])
     except ValueError as error:
         raise InputError(o.motion, "", str(error), REMEDY) from error

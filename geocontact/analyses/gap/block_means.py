@@ -28,7 +28,7 @@ from scipy.ndimage import median_filter
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
 from geocontact.gap.case.noise_sources import at_mains, typical_step, usual_range
-from geocontact.gap.inputs.spectrum import even_grid, resolution
+from geocontact.gap.inputs.spectrum import even_grid, nuttall, resolution
 from geocontact.gap.levels import FEWEST, INPUT_NOISE, SLIGHT, SURE
 from geocontact.gap.selection.residual_anomalies import pile
 from geocontact.identify.noise.noise_levels import typical_noise
@@ -234,8 +234,6 @@ def _recorder_shows(trials: Sequence[Trial], name: str) -> bool:
 
 def _line(trials: Sequence[Trial], name: str, size: int) -> bool:
     """Whether a narrow line stands out of an output's spectrum above what means of blocks show, in some trial."""
-    from scipy.signal.windows import nuttall
-
     for trial in trials:
         there = np.isfinite(trial.column(name))
         if there.sum() < FEWEST:

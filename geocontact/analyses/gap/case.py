@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import t
+from scipy.special import stdtrit
 
 from geocontact.analyses.frame.collector import add_input, reserve
 from geocontact.analyses.frame.consent import foreign
@@ -202,7 +202,7 @@ def odd_gains(
         if len(others) < FEW:
             continue
         usual, m = float(np.mean(others)), len(others)
-        wide = float(t.ppf(1.0 - CHANCE / (2 * len(gains) * channels), m - 1) * np.std(others, ddof=1))
+        wide = float(stdtrit(m - 1, 1.0 - CHANCE / (2 * len(gains) * channels)) * np.std(others, ddof=1))
         own, model = known[name]
         with_own, with_usual = (float(np.linalg.norm(own - np.exp(each) * model)) for each in (gain, usual))
         if abs(gain - usual) > max(GAIN, wide * np.sqrt(1.0 + 1.0 / m)) and with_own < BETTER * with_usual:

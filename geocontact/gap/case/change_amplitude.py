@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.special import stdtrit
 
 from geocontact.gap.levels import SLIGHT
 from geocontact.identify.intervals.quantile_intervals import CONFIDENCE
@@ -73,8 +74,6 @@ def amplitude(
 
     `deviation` is what of these residuals the trials differ by, nothing where that is not to count as chance.
     """
-    from scipy.stats import t
-
     works, powers, squares = [], [], 0.0
     for own, moved in zip(before, change, strict=True):
         edges = block_edges(len(own))
@@ -93,5 +92,5 @@ def amplitude(
     count = power**2 / float(np.sum(np.square(powers)))
     freedom = max(count - 1.0, 0.5)
     error = float(np.sqrt(spread * (count / freedom))) / power
-    reach = float(t.ppf(0.5 + 0.5 * CONFIDENCE, freedom)) * error
+    reach = float(stdtrit(freedom, 0.5 + 0.5 * CONFIDENCE)) * error
     return Amplitude(value, value - reach, value + reach, (power - 2.0 * work) / max(squares, 1e-300))

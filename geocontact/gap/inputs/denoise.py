@@ -16,6 +16,7 @@ from itertools import pairwise, product
 
 import numpy as np
 from jaxtyping import Bool, Complex, Float, Int
+from scipy.special import gammaincinv
 
 from geocontact.chain.differentiated_inputs import NEIGHBOURS
 from geocontact.chain.system import FAR, System
@@ -174,8 +175,6 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
     laboratories, of which the one that allows more counts, since the corner may have come out too high. Infinite where
     no trial is long enough.
     """
-    from scipy.stats import chi2
-
     recordings, found = _evenly(trials, name), []
     for corner in {passed.corner, min(passed.corner, USUAL / passed.step)}:
         bands = in_bands(recordings, passed, corner)
@@ -183,7 +182,9 @@ def highest_noise(trials: Sequence[Trial], name: str, passed: LowPass) -> float:
             return float("inf")
         least = float(np.exp(-SURE)) / len(bands)
         freedom = [2.0 * band.values / bins_wide(np.blackman(max(len(x) for x, _ in recordings))) for band in bands]
-        found.append(min(band.variance * f / chi2.ppf(least, f) for band, f in zip(bands, freedom, strict=True)))
+        found.append(
+            min(band.variance * f / (2.0 * gammaincinv(0.5 * f, least)) for band, f in zip(bands, freedom, strict=True))
+        )
     return float(np.sqrt(max(found)))
 
 

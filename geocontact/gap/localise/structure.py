@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.stats import t
+from scipy.special import stdtr
 
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import Refit
@@ -99,7 +99,7 @@ class StateCells:
             able &= own * np.sign(mean) >= np.exp(-TWOFOLD) * np.abs(mean)
         deviations = np.abs(mean[able]) / np.maximum(off[able], 1e-300)
         found = np.ones(mean.shape)
-        found[able] = 2.0 * t.sf(deviations, trials[able] - 1)
+        found[able] = 2.0 * stdtr(trials[able] - 1, -deviations)
         return found
 
     @staticmethod

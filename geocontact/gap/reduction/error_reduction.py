@@ -29,6 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.special import stdtrit
 
 from geocontact.data.diagnosis_evidence import HeldOut
 from geocontact.gap.case.problem import Problem
@@ -115,10 +116,8 @@ def error_reduction_of(
     errors: RawInputErrors, problem: Problem, after: Judged, named: bool, data_error: DataError | None
 ) -> dict[str, ErrorReduction]:
     """Reduction of the error of every channel, from its errors; see `error_reduction`."""
-    from scipy.stats import t
-
     count, present = len(problem.calibration.trials), problem.recorded.present
-    student = float(t.ppf(ENDS[1], max(errors.told_by - 2, 1)))  # a spread about two means of as few trials
+    student = float(stdtrit(max(errors.told_by - 2, 1), ENDS[1]))  # a spread about two means of as few trials
     heard = np.zeros(len(problem.system.outputs))
     if named and data_error is None:  # beside a mistake in the data noise of the inputs is nothing
         base = (problem.system.as_measured(), errors.values, errors.before[count:])

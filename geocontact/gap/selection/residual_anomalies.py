@@ -26,6 +26,7 @@ from geocontact.gap.case.problem import Problem
 from geocontact.gap.inputs.spectrum import resolution, switches
 from geocontact.gap.levels import FLAT, SLIGHT, SURE
 from geocontact.gap.selection.evidence import Judged, without_discrepancy
+from geocontact.identify.intervals.tails import f_nats, gamma_nats, poisson_nats
 from geocontact.identify.noise.noise_levels import typical_noise
 
 NEXT = 5  # values below the extreme that it is compared with
@@ -66,12 +67,10 @@ def clipped_channels(problem: Problem) -> tuple[ClippedChannel, ...]:
 
 def pile(values: Float[np.ndarray, " n"], step: float) -> tuple[float, int, float]:
     """Largest of some values, recorded in steps (0 where there are none); how many share it; nats against chance."""
-    from scipy.stats import poisson
-
     whole = np.round(values / step) * step if step > 0.0 else values
     levels, counts = np.unique(whole, return_counts=True)
     usual = float(counts[-1 - NEXT : -1].max(initial=1)) * (1.0 + np.sqrt(2.0) if step > 0.0 else 1.0)
-    return float(levels[-1]), int(counts[-1]), -float(poisson.logsf(counts[-1] - 1, usual))
+    return float(levels[-1]), int(counts[-1]), poisson_nats(int(counts[-1]), usual)
 
 
 WINDOWS = (4, 8, 16, 32, 64)  # samples
@@ -170,8 +169,6 @@ def without_hum(problem: Problem, judged: Judged) -> Judged:
 
 def _lines(problem: Problem, judged: Judged, base: Judged, what: str, *, mains: bool) -> list[ResidualAnomaly]:
     """Lines at the mains' frequencies, or everywhere else."""
-    from scipy.stats import f, gamma
-
     found = []
     step = problem.system.scale.step
     trials = [*problem.calibration.trials, *problem.evaluation.trials]
@@ -187,13 +184,13 @@ def _lines(problem: Problem, judged: Judged, base: Judged, what: str, *, mains: 
         for trial, x in long:
             power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
             usual, beside = _around(power)
-            nats = -f.logsf(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
+            above = f_nats(power / usual, 2, beside)  # neighbours overlap under the window, so half of them count
             ruled_out = moving(trial, moved, len(power))
             ruled_out |= at_mains(len(power), len(x), step) != mains
             ruled_out[:CYCLES] = ruled_out[-1] = True  # at Nyquist's frequency power has half the freedom
-            doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, nats))
+            doubt += np.interp(grid, np.arange(len(power)) / len(x), np.where(ruled_out, 0.0, above))
         peak = int(np.argmax(doubt))
-        nats = -float(gamma.logsf(doubt[peak], len(series))) - float(np.log(len(grid)))
+        nats = gamma_nats(float(doubt[peak]), len(series)) - float(np.log(len(grid)))
         share = share_of_band(problem, judged, base, c, float(grid[peak]), 0.0)
         found.append(ResidualAnomaly(f"{what} at {grid[peak] / step:.3g} Hz", name, max(nats, 0.0), share))
     return found
@@ -229,8 +226,6 @@ def ringing(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnom
 
     Of one frequency, beyond what all frequencies gain there.
     """
-    from scipy.stats import f
-
     found = []
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
@@ -247,7 +242,7 @@ def ringing(problem: Problem, judged: Judged, base: Judged) -> list[ResidualAnom
             freedom = 2 * len(spectra)
             ratio = together / others
             ratio /= np.maximum(np.median(ratio, axis=1, keepdims=True), 1.0)  # higher at all frequencies is no ringing
-            nats = -f.logsf(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
+            nats = f_nats(ratio, freedom, freedom * frames // 2) - np.log(ratio.size * len(PACKETS))
             frame, at = np.unravel_index(int(np.argmax(nats)), nats.shape)
             if nats[frame, at] > best:
                 best, at_best, narrow = float(nats[frame, at]), (at + CYCLES) / width, 1.0 / width
@@ -291,8 +286,6 @@ def _along(power: Float[np.ndarray, "m f"], grid: Float[np.ndarray, " p"]) -> Fl
 
 def bursts(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
     """A stretch of one trial in which the residual is far larger than there and then in the other trials."""
-    from scipy.stats import f
-
     found = []
     rows = innovations(problem, judged)
     for c, name in enumerate(problem.system.outputs):
@@ -305,7 +298,7 @@ def bursts(problem: Problem, judged: Judged) -> list[ResidualAnomaly]:
                     np.interp(phase, np.linspace(0.0, 1.0, len(e)), e) for i, e in enumerate(energies) if i != own
                 ]
                 usual = np.maximum(np.median(others, axis=0), 1.0) if others else np.ones(len(energy))
-                best = max(best, float((-f.logsf(energy / usual, width, OTHERS * width)).max()))
+                best = max(best, float(f_nats(energy / usual, width, OTHERS * width).max()))
                 looked += 2 * len(energy) // width
         found.append(ResidualAnomaly("a burst", name, max(best - float(np.log(max(looked, 1))), 0.0)))
     return found

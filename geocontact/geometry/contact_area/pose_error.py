@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
+from scipy.special import gammaincinv
 
 from geocontact.data.evolution import MM, MM2, AreaEvolution
 from geocontact.data.motion import Motion
@@ -202,9 +203,7 @@ def known_deviation(sd: Float[np.ndarray, " t"], draws: int) -> Float[np.ndarray
     (n - 1) s^2 / sigma^2 has a chi-square distribution of n - 1 degrees of freedom where areas are normal; they nearly
     are where they are linear in the pose. With 50 draws the ends are 16 % below and 25 % above.
     """
-    from scipy.stats import chi2  # late: half a second
-
-    lower, upper = (np.sqrt((draws - 1) / chi2.ppf(end, draws - 1)) for end in reversed(ENDS))
+    lower, upper = (np.sqrt((draws - 1) / (2.0 * gammaincinv(0.5 * (draws - 1), end))) for end in reversed(ENDS))
     return np.stack([sd, sd * lower, sd * upper])
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
+from scipy.special import betaincinv
 
 CONFIDENCE = 0.95
 ENDS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))  # of an interval, as shares of a distribution
@@ -40,9 +41,7 @@ def quantile(ordered: Float[np.ndarray, " n"], share: float) -> IntervalEstimate
 
 def probability(count: int, of: int) -> IntervalEstimate:
     """Probability of what happened `count` times in `of`, with the exact interval of Clopper and Pearson (1934)."""
-    from scipy.stats import beta
-
     tail = 0.5 * (1.0 - CONFIDENCE)
-    lower = float(beta.ppf(tail, count, of - count + 1)) if count else 0.0
-    upper = float(beta.ppf(1.0 - tail, count + 1, of - count)) if count < of else 1.0
+    lower = float(betaincinv(count, of - count + 1, tail)) if count else 0.0
+    upper = float(betaincinv(count + 1, of - count, 1.0 - tail)) if count < of else 1.0
     return IntervalEstimate(count / of, lower, upper)

@@ -152,37 +152,37 @@ def _both_ways(
     The state of the filter at the end of a part is that at the beginning of the next, so that parts have no borders:
     the values are those of the whole, to the last digit.
     """
-    from scipy.signal import butter, sosfilt, sosfilt_zi
+    from geocontact.identify.signals.butterworth import filtered, sections, settled  # late: numba
 
-    sections = butter(order, corner, fs=1.0 / step, output="sos")
-    beyond = 3 * _taps(sections) if mirrored is None else mirrored
+    low_pass = sections(order, corner, step)
+    beyond = 3 * _taps(low_pass) if mirrored is None else mirrored
     if len(values) <= beyond:
         raise ValueError(f"{len(values)} samples are too few to be filtered")
     channels = values.reshape(len(values), -1)
     found = room(channels.shape)
     before = 2.0 * channels[0] - channels[beyond:0:-1]
     after = 2.0 * channels[-1] - channels[-2 : -beyond - 2 : -1]
-    settled = sosfilt_zi(sections)[:, :, None]
-    state = settled * (before[0] if beyond else channels[0])
+    still = settled(low_pass)[:, :, None]
+    state = still * (before[0] if beyond else channels[0])
     if beyond:
-        _, state = sosfilt(sections, before, axis=0, zi=state)
+        _, state = filtered(low_pass, before, state)
     every = list(blocks(len(channels), channels.shape[1]))
     for some in every:
-        found[some], state = sosfilt(sections, channels[some], axis=0, zi=state)
+        found[some], state = filtered(low_pass, channels[some], state)
         release()
     if beyond:
-        after, _ = sosfilt(sections, after, axis=0, zi=state)
-        _, state = sosfilt(sections, after[::-1], axis=0, zi=settled * after[-1])
+        after, _ = filtered(low_pass, after, state)
+        _, state = filtered(low_pass, after[::-1], still * after[-1])
     else:
-        state = settled * found[-1]
+        state = still * found[-1]
     for some in reversed(every):
-        turned, state = sosfilt(sections, found[some][::-1], axis=0, zi=state)
+        turned, state = filtered(low_pass, found[some][::-1], state)
         found[some] = turned[::-1]
         release()
     return found.reshape(values.shape)
 
 
-def _taps(sections: Float[np.ndarray, "s six"]) -> int:
+def _taps(low_pass: Float[np.ndarray, "s six"]) -> int:
     """Taps of a filter, trailing zeros of its sections not counted."""
-    without = min(int((sections[:, 2] == 0.0).sum()), int((sections[:, 5] == 0.0).sum()))
-    return 2 * len(sections) + 1 - without
+    without = min(int((low_pass[:, 2] == 0.0).sum()), int((low_pass[:, 5] == 0.0).sum()))
+    return 2 * len(low_pass) + 1 - without

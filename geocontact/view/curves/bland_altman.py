@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import linregress
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from geocontact.view.curves.quantity import Quantity, array
 from geocontact.view.curves.sheet import number
@@ -68,7 +67,7 @@ def limits_of_agreement(difference: Float[np.ndarray, " n"]) -> LimitsOfAgreemen
     """
     n = len(difference)
     bias, sd = float(np.mean(difference)), float(np.std(difference, ddof=1))
-    t = float(student.ppf(0.975, n - 1))
+    t = float(stdtrit(n - 1, 0.975))
     of_bias = t * sd / np.sqrt(n)
     of_limit = t * sd * np.sqrt(1.0 / n + Z**2 / (2.0 * (n - 1)))
     lower, upper = bias - Z * sd, bias + Z * sd
@@ -91,9 +90,11 @@ def proportional_bias(mean: Float[np.ndarray, " n"], difference: Float[np.ndarra
     """
     if np.ptp(mean) == 0.0:
         raise ValueError("all means of pairs are equal; a slope over them is not defined")
-    line = linregress(mean, difference)
-    half = float(student.ppf(0.975, len(mean) - 2)) * float(line.stderr)
-    return Trend(float(line.slope), float(line.intercept), _around(float(line.slope), half))
+    (of_mean, both), (_, of_difference) = np.cov(mean, difference, bias=True)
+    freedom, slope = len(mean) - 2, float(both / of_mean)
+    left = max(float(of_difference - slope * both), 0.0)  # mean square about the line
+    half = float(stdtrit(freedom, 0.975)) * np.sqrt(left / of_mean / freedom)
+    return Trend(slope, float(difference.mean() - slope * mean.mean()), _around(slope, half))
 
 
 def _around(centre: float, half: float) -> Interval:

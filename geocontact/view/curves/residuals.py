@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.stats import beta, norm
+from scipy.special import betainc, betaincc, betaincinv, ndtr, ndtri
 
 from geocontact.view.curves.quantity import Quantity, finite
 from geocontact.view.curves.sheet import number, plain
@@ -67,9 +67,9 @@ def normal_quantiles(sample: Float[np.ndarray, " n"], level: float = 0.95) -> No
     worst = _worst_of_normal_samples(n)
     depth = float(np.quantile(worst, 1.0 - level))
     found = _depth((ordered - mean) / sd, rank, n).min()
-    lowest = np.asarray(norm.ppf(beta.ppf(depth / 2.0, rank, n + 1 - rank)))
+    lowest = np.asarray(ndtri(betaincinv(rank, n + 1 - rank, depth / 2.0)))
     return NormalQuantiles(
-        theoretical=np.asarray(norm.ppf(beta.median(rank, n + 1 - rank))),
+        theoretical=np.asarray(ndtri(betaincinv(rank, n + 1 - rank, 0.5))),
         ordered=ordered,
         lower=mean + sd * lowest,
         upper=mean - sd * lowest[::-1],
@@ -81,8 +81,8 @@ def normal_quantiles(sample: Float[np.ndarray, " n"], level: float = 0.95) -> No
 
 def _depth(standardised: Float[np.ndarray, "*s r"], rank: Int[np.ndarray, " r"], n: int) -> Float[np.ndarray, "*s r"]:
     """Two-sided p-value of each order statistic of n."""
-    below = beta.cdf(norm.cdf(standardised), rank, n + 1 - rank)
-    above = beta.sf(norm.cdf(standardised), rank, n + 1 - rank)
+    below = betainc(rank, n + 1 - rank, ndtr(standardised))
+    above = betaincc(rank, n + 1 - rank, ndtr(standardised))
     return np.asarray(2.0 * np.minimum(below, above))
 
 
@@ -124,7 +124,7 @@ def residual_histogram(residual: Float[np.ndarray, " n"], quantity: Quantity, ax
     entries: list[tuple[Artist | tuple[Artist, ...], str]] = [(bars.patches[0], f"residual (n = {len(values)})")]
     if sd > 0.0:
         x = np.linspace(min(edges[0], mean - 3.5 * sd), max(edges[-1], mean + 3.5 * sd), 301)
-        curve = axes.plot(x, norm.pdf(x, mean, sd), color=BLACK)[0]
+        curve = axes.plot(x, np.exp(-0.5 * ((x - mean) / sd) ** 2) / (np.sqrt(2.0 * np.pi) * sd), color=BLACK)[0]
         entries.append((curve, f"normal, mean {number(mean, sd)}, SD {number(sd)} {quantity.unit}"))
     axes.axvline(0.0, color=GREY, lw=0.6, zorder=0)
     axes.set_xlabel(_residual(quantity).label)

@@ -146,6 +146,7 @@ def legend(axes: Axes, entries: Sequence[tuple[Artist | tuple[Artist, ...], str]
 
 
 UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": None}
+EFFORT = 4  # of compression: 6, the usual one, makes files 3 % smaller and takes twice as long
 FINE = 300.0  # dots per inch of the layout: with fewer, small letters are hinted to other widths than in the file
 
 
@@ -166,4 +167,5 @@ def save(figure: Figure, path: str | Path) -> None:
         engine.execute(figure)
         figure.dpi = shown
         figure.set_layout_engine(None)  # a second pass would move everything by a hair, and so change the file
-    figure.savefig(path, format=ending[1:], metadata=UNDATED[ending])
+    packing: dict[str, Any] = {"pil_kwargs": {"compress_level": EFFORT}} if ending == ".png" else {}
+    figure.savefig(path, format=ending[1:], metadata=UNDATED[ending], **packing)

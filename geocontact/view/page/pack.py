@@ -82,12 +82,16 @@ def across(faces: Int[np.ndarray, "m 3"], distance: Float[np.ndarray, "t n"], up
     A contour at `upper` runs through such faces and would be displaced if their far corners were cut off.
     """
     largest = upper
+    first, second, third = np.ascontiguousarray(faces.T)
     for values in distance:
-        corners = values[faces[(values <= upper)[faces].any(axis=1)]]
+        near = values <= upper
+        corners = values[faces[near[first] | near[second] | near[third]]]
         largest = max(largest, float(np.max(corners, initial=upper, where=corners <= most)))
     return largest
 
 
+EFFORT = 6
+"""Of gzip. 9 makes distances of 100 frames 3 % smaller, a page 1 %, and takes five times as long."""
 GRID = 65535
 """Steps of a position along each edge of the bounding box."""
 
@@ -124,10 +128,10 @@ class Block:
 def packed(name: str, array: np.ndarray) -> Block:
     """Pack an array of u1, u2, u4, f4 or f8, filtered where that is smaller."""
     little = np.ascontiguousarray(array, array.dtype.newbyteorder("<"))
-    plain = gzip.compress(little.tobytes(), 9, mtime=0)
+    plain = gzip.compress(little.tobytes(), EFFORT, mtime=0)
     small = plain
     if little.dtype.kind == "u":
-        small = min(plain, gzip.compress(_filtered(little), 9, mtime=0), key=len)
+        small = min(plain, gzip.compress(_filtered(little), EFFORT, mtime=0), key=len)
     text = base64.b64encode(small).decode("ascii")
     return Block(name, f"{array.dtype.kind}{array.dtype.itemsize}", array.shape, small is not plain, text)
 

@@ -1,0 +1,60 @@
+"""The low-pass that stands in for that of `scipy.signal` has its numbers, to the last digit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import butter, lfilter, sosfilt, sosfilt_zi, sosfiltfilt
+
+from geocontact.axis_misalignment.synthetic import Design, _remembered
+from geocontact.identify.signals.butterworth import filtered, sections, settled
+from geocontact.identify.signals.filters import TWICE, zero_lag
+
+CORNERS = [(0.01, 0.001), (0.5, 0.02), (6.0, 0.01), (17.3, 1 / 120), (40.0, 0.01), (499.0, 0.001)]
+
+
+@pytest.mark.parametrize("order", [2, 3])
+@pytest.mark.parametrize(("corner", "step"), CORNERS)
+def test_sections_are_those_of_scipy(order: int, corner: float, step: float) -> None:
+    expected = butter(order, corner, fs=1.0 / step, output="sos")
+    found = sections(order, corner, step)
+    assert np.array_equal(found, expected), found - expected
+    assert np.array_equal(settled(found), sosfilt_zi(expected))
+
+
+@pytest.mark.parametrize(("corner", "step"), CORNERS)
+def test_half_of_the_power_passes_at_the_corner(corner: float, step: float) -> None:
+    """By the transfer function itself, on the unit circle."""
+    b, a = sections(2, corner, step)[0].reshape(2, 3)
+    back = np.exp(-2j * np.pi * corner * step * np.arange(3))
+    assert abs((b @ back) / (a @ back)) ** 2 == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_values_and_state_are_those_of_scipy(order: int) -> None:
+    rng = np.random.default_rng(3)
+    low_pass = sections(order, 6.0, 0.01)
+    values, state = rng.standard_normal((400, 5)), rng.standard_normal((len(low_pass), 2, 5))
+    kept = values.copy(), state.copy()
+    found, left = filtered(low_pass, values[::-1], state)
+    expected, expected_left = sosfilt(low_pass, values[::-1], axis=0, zi=state)
+    assert np.array_equal(found, expected)
+    assert np.array_equal(left, expected_left)
+    assert np.array_equal(values, kept[0])
+    assert np.array_equal(state, kept[1])
+
+
+def test_both_ways_is_that_of_scipy() -> None:
+    values = np.random.default_rng(4).standard_normal((300, 3)).cumsum(axis=0)
+    corner = np.arctan(np.tan(np.pi * 6.0 * 0.01) / TWICE) / (np.pi * 0.01)
+    low_pass = butter(2, corner, fs=1.0 / 0.01, output="sos")
+    assert np.array_equal(zero_lag(values, 0.01, 6.0), sosfiltfilt(low_pass, values, axis=0))
+
+
+def test_a_remembered_force_is_a_filter_of_first_order() -> None:
+    design = Design(rate=100.0, noise=0.7, memory=0.25)
+    white = np.random.default_rng(5).standard_normal(500)
+    keep = np.exp(-1.0 / 25.0)
+    white[1:] *= np.sqrt(1.0 - keep**2)
+    expected = 0.7 * lfilter([1.0], [1.0, -keep], white)
+    assert np.array_equal(_remembered(500, design, np.random.default_rng(5)), expected)
