@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.clip import fraction_below
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, lean
 
 ROUND = 1e-12  # relative allowance for rounding in the certificates
 
@@ -81,7 +81,7 @@ def totals(lower, upper, area, moment, negative):
     return sums, undecided[:count].copy()
 
 
-@inner
+@lean
 def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     """1 when the triangle lies within the threshold for certain, -1 when outside, 0 when one corner cannot tell.
 
@@ -142,7 +142,7 @@ def _surely_within(v, p, found, threshold):
     return best
 
 
-@inner
+@lean
 def _circle2(a, b, c):
     """Squared radius of the smallest circle that contains a triangle of these edge lengths."""
     a2, b2, c2 = a * a, b * b, c * c

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel, part
+from geocontact.geometry.kernels.compile import inner, kernel, lean, part
 from geocontact.geometry.kernels.quarter import ROUNDING, SLACK
 from geocontact.geometry.kernels.rise import free_above, height_within, plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
@@ -219,7 +219,7 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
     return low if free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius) else -np.inf
 
 
-@inner
+@lean
 def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     """Bound of the signed distance over a triangle v (3, 3) by the rise over a plane; -inf where it does not hold."""
     if rise == np.inf:
@@ -234,7 +234,7 @@ def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     return low
 
 
-@inner
+@lean
 def _to_triangle(leaves, place, v, corner):
     """Distance of one of the corners v (3, 3) to the triangle at a place."""
     x, y, z = v[corner, 0], v[corner, 1], v[corner, 2]
@@ -242,7 +242,7 @@ def _to_triangle(leaves, place, v, corner):
     return np.sqrt((x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2)
 
 
-@inner
+@lean
 def _farthest(far):
     """Bound of the distance over a triangle by those of its corners to three faces: far (face, corner).
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, lean
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import nearest, offset, scratch
 from geocontact.geometry.kernels.triangle import LEAF, U
@@ -124,7 +124,7 @@ def edge_gap(tree, start, end, floors, best):
     return best
 
 
-@inner
+@lean
 def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, square, fan):
     """The less of `best` and the least distance of a piece, given its middle and half length, to the faces."""
     nodes[0] = 0
@@ -150,7 +150,7 @@ def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, sq
     return best
 
 
-@inner
+@lean
 def _segment_to_triangle(leaves, o, piece):
     """Distance of a segment to the three edges of the triangle at offset o, 0 where it passes through its inside.
 
@@ -170,7 +170,7 @@ def _segment_to_triangle(leaves, o, piece):
     return np.sqrt(d2)
 
 
-@inner
+@lean
 def _local(leaves, o, x, y, z):
     """A point in the frame of the triangle at offset o."""
     dx, dy, dz = x - leaves[o], y - leaves[o + U(LEAF)], z - leaves[o + U(2 * LEAF)]
@@ -181,7 +181,7 @@ def _local(leaves, o, x, y, z):
     )
 
 
-@inner
+@lean
 def _segments2(p, q, ax, ay, bx, by):
     """Squared distance of segment pq to the segment from (ax, ay, 0) to (bx, by, 0).
 

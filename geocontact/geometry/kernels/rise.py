@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner
+from geocontact.geometry.kernels.compile import inner, lean
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
 from geocontact.geometry.kernels.triangle import LEAF, U
 from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_distances
@@ -22,7 +22,7 @@ from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_dist
 ROUND = 1e-12  # share of the radius that rounding may cost
 
 
-@inner
+@lean
 def plane_of(leaves, place):
     """Middle (3) and outward unit normal (3) of the triangle at a place; a zero normal where there is no telling."""
     o = offset(place)
@@ -39,7 +39,7 @@ def plane_of(leaves, place):
     )
 
 
-@inner
+@lean
 def size_of(leaves, place):
     """Largest distance of a corner to the middle of the triangle at a place."""
     o = offset(place)
@@ -104,7 +104,7 @@ def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
     return side > 0
 
 
-@inner
+@lean
 def _highest(leaves, place, cx, cy, cz, nx, ny, nz, radius):
     """Bound of the height over the plane through c across n that a triangle has within `radius` of c.
 
