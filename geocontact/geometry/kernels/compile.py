@@ -88,9 +88,7 @@ def lean(function: F) -> F:
     return _compiled(function, "never", wrapped=False, counted=False)
 
 
-def _compiled(
-    function: F, inline: Literal["never", "always"], *, wrapped: bool = True, counted: bool = True
-) -> F:
+def _compiled(function: F, inline: Literal["never", "always"], *, wrapped: bool = True, counted: bool = True) -> F:
     plain = inspect.unwrap(function)
     if vars(numba.config)["DISABLE_JIT"]:  # NUMBA_DISABLE_JIT=1: slow, for debuggers and machines that may not compile
         return cast(F, np.errstate(all="ignore")(plain))  # as silent as what is compiled

@@ -171,7 +171,7 @@ def leaf_distances(t, o, px, py, pz, out, n):
 
 @part
 def least_of(values, n):
-    """The least of the first n values, n a multiple of VECTOR above 0: in as many rows, since one would wait in turn."""
+    """The least of the first n values, n a multiple of VECTOR above 0: eight rows, none of which waits for another."""
     a, b, c, d = values[U(0)], values[U(1)], values[U(2)], values[U(3)]
     e, f, g, h = values[U(4)], values[U(5)], values[U(6)], values[U(7)]
     for k in range(VECTOR, n, VECTOR):
