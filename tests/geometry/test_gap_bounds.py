@@ -16,6 +16,7 @@ from geocontact.geometry.contact_area.evolution import ContactPair, Settings
 from geocontact.geometry.contact_area.gap import Rise
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
+from geocontact.geometry.kernels.tree import scratch
 from geocontact.geometry.separation import Collider, settle
 from meshes import reference
 from meshes import simple_shapes as shapes
@@ -106,7 +107,9 @@ def over_face(tree, place, beyond):
     """Middle and normal of the face at a place, the radius `beyond` the face, and the rise within it."""
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
     radius = beyond + size_of(tree.leaves, place)
-    return cx, cy, cz, nx, ny, nz, radius, rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True)
+    nodes, keys, square, fan = scratch()
+    rise = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, True, nodes, keys, square, fan)
+    return cx, cy, cz, nx, ny, nz, radius, rise
 
 
 @pytest.mark.parametrize("name", ["cup", "insert", "femur", "block"])

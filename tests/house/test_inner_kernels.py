@@ -10,7 +10,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 KERNELS = ROOT / "geocontact/geometry/kernels"
-COMPILED = {"kernel", "part", "inner"}
+BARE = {"inner", "lean"}
+COMPILED = {"kernel", "part", *BARE}
 
 
 def decorators(node: ast.stmt) -> set[str]:
@@ -20,10 +21,10 @@ def decorators(node: ast.stmt) -> set[str]:
 
 
 def inner_kernels(folder: Path) -> dict[str, set[str]]:
-    """Names decorated with `inner`, by module."""
+    """Names without a wrapper for Python, decorated with `inner` or `lean`, by module."""
     trees = {file.stem: ast.parse(file.read_text(encoding="utf-8")) for file in folder.glob("*.py")}
     return {
-        stem: {node.name for node in tree.body if isinstance(node, ast.FunctionDef) and "inner" in decorators(node)}
+        stem: {node.name for node in tree.body if isinstance(node, ast.FunctionDef) and decorators(node) & BARE}
         for stem, tree in trees.items()
     }
 

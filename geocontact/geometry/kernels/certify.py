@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.clip import fraction_below
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import kernel, lean
 
 ROUND = 1e-12  # relative allowance for rounding in the certificates
 
@@ -81,7 +81,7 @@ def totals(lower, upper, area, moment, negative):
     return sums, undecided[:count].copy()
 
 
-@inner
+@lean
 def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     """1 when the triangle lies within the threshold for certain, -1 when outside, 0 when one corner cannot tell.
 
@@ -98,7 +98,7 @@ def _by_one_corner(i, reach, distance, side, slot, threshold, signed):
     return 0
 
 
-@inner
+@lean
 def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     slack = ROUND * (e0 + e1 + e2 + threshold)
     outside = threshold + slack
@@ -121,28 +121,30 @@ def _second_order(v, p, d, s, found, e0, e1, e2, threshold, signed):
     return lower, 1.0
 
 
-@inner
+@lean
 def _surely_within(v, p, found, threshold):
     best = 0.0
-    far2 = np.empty(3)
     most2 = threshold * threshold if threshold > 0.0 else 0.0
     for j in range(3):
         if not found[j]:
             continue
-        for i in range(3):
-            x, y, z = v[i, 0] - p[j, 0], v[i, 1] - p[j, 1], v[i, 2] - p[j, 2]
-            far2[i] = x * x + y * y + z * z
-        if max(far2[0], max(far2[1], far2[2])) <= most2:
+        a2, b2, c2 = _apart2(v, 0, p, j), _apart2(v, 1, p, j), _apart2(v, 2, p, j)
+        if max(a2, max(b2, c2)) <= most2:
             return 1.0
-        if min(far2[0], min(far2[1], far2[2])) <= most2:
-            share = fraction_below(
-                np.sqrt(far2[0]) - threshold, np.sqrt(far2[1]) - threshold, np.sqrt(far2[2]) - threshold
-            )
+        if min(a2, min(b2, c2)) <= most2:
+            share = fraction_below(np.sqrt(a2) - threshold, np.sqrt(b2) - threshold, np.sqrt(c2) - threshold)
             best = max(best, share)
     return best
 
 
-@inner
+@lean
+def _apart2(v, i, p, j):
+    """Squared distance of row i of v to row j of p."""
+    x, y, z = v[i, 0] - p[j, 0], v[i, 1] - p[j, 1], v[i, 2] - p[j, 2]
+    return x * x + y * y + z * z
+
+
+@lean
 def _circle2(a, b, c):
     """Squared radius of the smallest circle that contains a triangle of these edge lengths."""
     a2, b2, c2 = a * a, b * b, c * c

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import kernel, lean
 
 
 @kernel
@@ -57,7 +57,7 @@ def areas_below(faces, value, area, thresholds):
     return found
 
 
-@inner
+@lean
 def _cut(polygon, count, f, out):
     """Part of a convex polygon in barycentric coordinates where b @ f <= 0; returns its corner count."""
     kept = 0
@@ -78,7 +78,7 @@ def _cut(polygon, count, f, out):
     return kept
 
 
-@inner
+@lean
 def _moments(polygon, count, out):
     """Share of the triangle's area inside the polygon and the barycentric first moments (3,) of that share."""
     share = 0.0

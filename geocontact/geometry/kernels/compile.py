@@ -80,7 +80,15 @@ def inner(function: F) -> F:
     return _compiled(function, "never", wrapped=False)
 
 
-def _compiled(function: F, inline: Literal["never", "always"], *, wrapped: bool = True) -> F:
+def lean(function: F) -> F:
+    """The same for what allocates nothing and is called often: its arrays are not counted in and out at every call.
+
+    Counting costs more than a node of the tree. Whoever calls it holds the arrays meanwhile.
+    """
+    return _compiled(function, "never", wrapped=False, counted=False)
+
+
+def _compiled(function: F, inline: Literal["never", "always"], *, wrapped: bool = True, counted: bool = True) -> F:
     plain = inspect.unwrap(function)
     if vars(numba.config)["DISABLE_JIT"]:  # NUMBA_DISABLE_JIT=1: slow, for debuggers and machines that may not compile
         return cast(F, np.errstate(all="ignore")(plain))  # as silent as what is compiled
@@ -89,6 +97,8 @@ def _compiled(function: F, inline: Literal["never", "always"], *, wrapped: bool 
         vars(numba.config)["CACHE_DIR"] = str(_cache_folder(own=own))
     # nothing here is called from C, so no kernel has the wrapper for that
     bare: dict[str, Any] = {"no_cfunc_wrapper": True, "no_cpython_wrapper": not wrapped}
+    if not counted:
+        bare["_nrt"] = False
     compiled = numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline, **bare)(plain)
     _KERNELS.add(compiled)
     return cast(F, compiled)

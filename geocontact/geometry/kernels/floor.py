@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel, part
+from geocontact.geometry.kernels.compile import inner, kernel, lean, part
 from geocontact.geometry.kernels.quarter import ROUNDING, SLACK
 from geocontact.geometry.kernels.rise import free_above, height_within, plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
@@ -144,6 +144,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     v = np.empty((3, 3))
     far = np.empty((3, 3))
     own, alike = np.empty(3, np.int64), np.empty(3, np.int64)
+    nodes, keys, square, fan = scratch()
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         if max(signed[i], max(signed[j], signed[k])) == np.inf:
@@ -163,7 +164,7 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
             cx, cy, cz, nx, ny, nz = plane_of(leaves, place[s])
             radius = reach + size_of(leaves, place[s])
             if np.isnan(above[s]):
-                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, use)
+                above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, use, nodes, keys, square, fan)
             low = max(low, _over_plane(cx, cy, cz, nx, ny, nz, above[s], radius, v))
         if low >= bar:
             continue
@@ -178,7 +179,9 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
         for c in range(3):
             if low < bar and use and own[c] >= 0 and alike[c] < 0:
                 at = place[own[c]]
-                low = max(low, _over_plane_nearby(tree, at, margin, v, signed[i], signed[j], signed[k], bar))
+                a, b, d = signed[i], signed[j], signed[k]
+                nearby = _over_plane_nearby(tree, at, margin, v, a, b, d, bar, nodes, keys, square, fan)
+                low = max(low, nearby)
         if low < bar:
             keep[count] = f
             floors[count] = low
@@ -186,8 +189,8 @@ def promising(tree, place, above, reach, use, faces, edges, points, signed, slot
     return keep[:count].copy(), floors[:count].copy()
 
 
-@inner
-def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
+@lean
+def _over_plane_nearby(tree, place, margin, v, a, b, c, bar, nodes, keys, square, fan):
     """Bound of the signed distance over a triangle v (3, 3) by the plane of the face at a place, about v's middle.
 
     It is -inf where it would lie below `bar`, which is known before the whole neighbourhood has been looked at.
@@ -208,7 +211,7 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
     if lowest < bar:  # the face itself is as high as its plane
         return -np.inf
     radius += margin
-    rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius, min(radius, lowest - bar))
+    rise = height_within(tree, cx, cy, cz, nx, ny, nz, radius, min(radius, lowest - bar), nodes, square, fan)
     low = _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v)
     if low == -np.inf:
         return low
@@ -216,10 +219,11 @@ def _over_plane_nearby(tree, place, margin, v, a, b, c, bar):
         h = (v[corner, 0] - cx) * nx + (v[corner, 1] - cy) * ny + (v[corner, 2] - cz) * nz
         if h > rise and signed > 0.0:
             return low
-    return low if free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius) else -np.inf
+    outside = free_above(tree, cx, cy, cz, nx, ny, nz, rise, radius, nodes, keys, square, fan)
+    return low if outside else -np.inf
 
 
-@inner
+@lean
 def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     """Bound of the signed distance over a triangle v (3, 3) by the rise over a plane; -inf where it does not hold."""
     if rise == np.inf:
@@ -234,7 +238,7 @@ def _over_plane(cx, cy, cz, nx, ny, nz, rise, radius, v):
     return low
 
 
-@inner
+@lean
 def _to_triangle(leaves, place, v, corner):
     """Distance of one of the corners v (3, 3) to the triangle at a place."""
     x, y, z = v[corner, 0], v[corner, 1], v[corner, 2]
@@ -242,7 +246,7 @@ def _to_triangle(leaves, place, v, corner):
     return np.sqrt((x - qx) ** 2 + (y - qy) ** 2 + (z - qz) ** 2)
 
 
-@inner
+@lean
 def _farthest(far):
     """Bound of the distance over a triangle by those of its corners to three faces: far (face, corner).
 

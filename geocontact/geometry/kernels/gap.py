@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import kernel, lean
 from geocontact.geometry.kernels.rise import plane_of, rise_of, size_of
 from geocontact.geometry.kernels.tree import nearest, offset, scratch
 from geocontact.geometry.kernels.triangle import LEAF, U
@@ -31,6 +31,7 @@ def near_edges(tree, place, above, below, reach, signed, ends, length, points, d
     leaves = tree.leaves
     keep = np.empty(len(ends), np.int64)
     floors = np.empty(len(ends))
+    nodes, keys, square, fan = scratch()
     count = 0
     for q in range(len(ends)):
         i, j, e = ends[q, 0], ends[q, 1], length[q]
@@ -47,7 +48,10 @@ def near_edges(tree, place, above, below, reach, signed, ends, length, points, d
             s = slot[ends[q, end]]
             if s >= 0 and low < bar and reach > 0.0:
                 radius = reach + size_of(leaves, place[s])
-                low = max(low, _clear_of(tree, place[s], s, above, below, radius, signed, points, i, j))
+                clear = _clear_of(
+                    tree, place[s], s, above, below, radius, signed, points, i, j, nodes, keys, square, fan
+                )
+                low = max(low, clear)
         if low < bar:
             keep[count] = q
             floors[count] = low
@@ -55,8 +59,8 @@ def near_edges(tree, place, above, below, reach, signed, ends, length, points, d
     return keep[:count].copy(), floors[:count].copy()
 
 
-@inner
-def _clear_of(tree, place, s, above, below, radius, signed, points, i, j):
+@lean
+def _clear_of(tree, place, s, above, below, radius, signed, points, i, j, nodes, keys, square, fan):
     """Bound of the distance between points i and j by the face at a place; 0 where there is none."""
     cx, cy, cz, nx, ny, nz = plane_of(tree.leaves, place)
     ax, ay, az = points[i, 0] - cx, points[i, 1] - cy, points[i, 2] - cz
@@ -66,11 +70,11 @@ def _clear_of(tree, place, s, above, below, radius, signed, points, i, j):
         return 0.0
     if a > 0.0:
         if np.isnan(above[s]):
-            above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed)
+            above[s] = rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed, nodes, keys, square, fan)
         rise = above[s]
     else:
         if np.isnan(below[s]):
-            below[s] = rise_of(tree, cx, cy, cz, -nx, -ny, -nz, radius, signed)
+            below[s] = rise_of(tree, cx, cy, cz, -nx, -ny, -nz, radius, signed, nodes, keys, square, fan)
         rise = below[s]
     a, b = abs(a) - rise, abs(b) - rise
     if a <= 0.0 or b <= 0.0:
@@ -124,7 +128,7 @@ def edge_gap(tree, start, end, floors, best):
     return best
 
 
-@inner
+@lean
 def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, square, fan):
     """The less of `best` and the least distance of a piece, given its middle and half length, to the faces."""
     nodes[0] = 0
@@ -150,7 +154,7 @@ def _piece_gap(boxes, child, leaves, fill, piece, x, y, z, half, best, nodes, sq
     return best
 
 
-@inner
+@lean
 def _segment_to_triangle(leaves, o, piece):
     """Distance of a segment to the three edges of the triangle at offset o, 0 where it passes through its inside.
 
@@ -170,7 +174,7 @@ def _segment_to_triangle(leaves, o, piece):
     return np.sqrt(d2)
 
 
-@inner
+@lean
 def _local(leaves, o, x, y, z):
     """A point in the frame of the triangle at offset o."""
     dx, dy, dz = x - leaves[o], y - leaves[o + U(LEAF)], z - leaves[o + U(2 * LEAF)]
@@ -181,7 +185,7 @@ def _local(leaves, o, x, y, z):
     )
 
 
-@inner
+@lean
 def _segments2(p, q, ax, ay, bx, by):
     """Squared distance of segment pq to the segment from (ax, ay, 0) to (bx, by, 0).
 

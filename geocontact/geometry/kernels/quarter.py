@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, lean
 
 SLACK = 1e-9  # relative allowance for rounding in a limit that neighbours set
 ROUNDING = 1e-12  # m; no distance is missed because of rounding
@@ -53,7 +53,7 @@ def divided(faces, points, distance, slot, across, beyond):
     return quarters, placed, limit, mean
 
 
-@inner
+@lean
 def _apart(points, i, j):
     x, y, z = points[i, 0] - points[j, 0], points[i, 1] - points[j, 1], points[i, 2] - points[j, 2]
     return np.sqrt(x * x + y * y + z * z)
@@ -68,7 +68,7 @@ def _size(most):
     return size
 
 
-@inner
+@lean
 def _numbered(i, j, n, ends, table, count):
     """Number of the edge from i to j, `count` where it is new: it is entered then."""
     size = len(table)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import kernel, lean
 from geocontact.geometry.kernels.tree import offset
 from geocontact.geometry.kernels.triangle import LEAF, U
 from geocontact.geometry.kernels.wide import FAN, STACK
@@ -34,7 +34,7 @@ def exits(tree, points, directions, limit, outside):
     return distance, slot
 
 
-@inner
+@lean
 def _exit(boxes, child, leaves, fill, p, d, limit, outside, nodes):
     best = limit
     place = -1
@@ -61,7 +61,7 @@ def _exit(boxes, child, leaves, fill, p, d, limit, outside, nodes):
     return best, place
 
 
-@inner
+@lean
 def _meets(boxes, o, p, d, best):
     """Whether the ray passes the box within `best`, the box widened by what rounding may cost."""
     near = 0.0
@@ -80,7 +80,7 @@ def _meets(boxes, o, p, d, best):
     return near <= far
 
 
-@inner
+@lean
 def _crossing(r, o, p, d, outside):
     """Where the ray leaves through a triangle; infinite where it does not."""
     along = d[0] * r[o + U(3 * LEAF)] + d[1] * r[o + U(4 * LEAF)] + d[2] * r[o + U(5 * LEAF)]

@@ -14,15 +14,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner
-from geocontact.geometry.kernels.tree import nearest, offset, scratch, side_of
+from geocontact.geometry.kernels.compile import lean
+from geocontact.geometry.kernels.tree import nearest, offset, side_of
 from geocontact.geometry.kernels.triangle import LEAF, U
 from geocontact.geometry.kernels.wide import FAN, ROWS, box_distances, leaf_distances
 
 ROUND = 1e-12  # share of the radius that rounding may cost
 
 
-@inner
+@lean
 def plane_of(leaves, place):
     """Middle (3) and outward unit normal (3) of the triangle at a place; a zero normal where there is no telling."""
     o = offset(place)
@@ -39,7 +39,7 @@ def plane_of(leaves, place):
     )
 
 
-@inner
+@lean
 def size_of(leaves, place):
     """Largest distance of a corner to the middle of the triangle at a place."""
     o = offset(place)
@@ -49,17 +49,21 @@ def size_of(leaves, place):
     return np.sqrt(max(far2, (x - s) * (x - s) + (y - t) * (y - t)))
 
 
-@inner
-def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed):
-    """What `height_within` gives; when `signed`, infinite as well where what is higher is not outside."""
-    height = height_within(tree, cx, cy, cz, nx, ny, nz, radius, radius)
-    if signed and height < np.inf and not free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
-        return np.inf
-    return height
+@lean
+def rise_of(tree, cx, cy, cz, nx, ny, nz, radius, signed, nodes, keys, square, fan):
+    """What `height_within` gives; when `signed`, infinite as well where what is higher is not outside.
+
+    The last four arguments are `scratch`, here and below.
+    """
+    height = height_within(tree, cx, cy, cz, nx, ny, nz, radius, radius, nodes, square, fan)
+    if not signed or height == np.inf:
+        return height
+    outside = free_above(tree, cx, cy, cz, nx, ny, nz, height, radius, nodes, keys, square, fan)
+    return height if outside else np.inf
 
 
-@inner
-def height_within(tree, cx, cy, cz, nx, ny, nz, radius, most):
+@lean
+def height_within(tree, cx, cy, cz, nx, ny, nz, radius, most, nodes, square, fan):
     """Height over the plane through c across the unit vector n that the surface reaches within `radius` of c.
 
     Infinite where it reaches as far as `most`, which is not above the radius, and where n is zero.
@@ -67,7 +71,6 @@ def height_within(tree, cx, cy, cz, nx, ny, nz, radius, most):
     if nx == 0.0 and ny == 0.0 and nz == 0.0:
         return np.inf
     boxes, child, leaves, fill = tree.boxes, tree.child, tree.leaves, tree.fill
-    nodes, _, square, fan = scratch()
     height = -np.inf
     r2 = radius * radius * (1.0 + ROUND)
     nodes[0] = 0
@@ -93,10 +96,9 @@ def height_within(tree, cx, cy, cz, nx, ny, nz, radius, most):
     return np.inf if height >= most else height
 
 
-@inner
-def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
+@lean
+def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius, nodes, keys, square, fan):
     """Whether what is higher than `height` within the radius, being free of the surface, is outside."""
-    nodes, keys, square, fan = scratch()
     step = 0.5 * (max(height, -radius) + radius)
     x, y, z = cx + step * nx, cy + step * ny, cz + step * nz
     _, found = nearest(tree.boxes, tree.child, tree.leaves, tree.fill, x, y, z, np.inf, nodes, keys, square, fan)
@@ -104,7 +106,7 @@ def free_above(tree, cx, cy, cz, nx, ny, nz, height, radius):
     return side > 0
 
 
-@inner
+@lean
 def _highest(leaves, place, cx, cy, cz, nx, ny, nz, radius):
     """Bound of the height over the plane through c across n that a triangle has within `radius` of c.
 

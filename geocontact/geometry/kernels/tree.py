@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner
+from geocontact.geometry.kernels.compile import inner, lean
 from geocontact.geometry.kernels.triangle import LEAF, U, closest_point
-from geocontact.geometry.kernels.wide import FAN, ROWS, STACK, box_distances, leaf_distances
+from geocontact.geometry.kernels.wide import FAN, ROWS, STACK, box_distances, first_of, leaf_distances, least_of
 
 
 class BoxTree(NamedTuple):
@@ -40,7 +40,7 @@ def scratch():
     return np.empty(STACK, np.int64), np.empty(STACK), np.empty(max(FAN, LEAF)), FAN
 
 
-@inner
+@lean
 def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fan):
     """Squared distance and place of the nearest triangle; place -1 when none is nearer than sqrt(limit2).
 
@@ -60,10 +60,10 @@ def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fa
         if node < 0:
             leaf = -2 - node
             leaf_distances(leaves, U(leaf) * U(ROWS * LEAF), x, y, z, square, fill[leaf])
-            for j in range(fill[leaf]):
-                if square[j] < best:
-                    best = square[j]
-                    place = leaf * LEAF + j
+            least = least_of(square, fill[leaf])
+            if least < best:
+                best = least
+                place = leaf * LEAF + first_of(square, least)
             continue
         box_distances(boxes, U(node) * U(6 * FAN), x, y, z, square, fan)
         base = waiting
@@ -81,19 +81,19 @@ def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fa
     return best, place
 
 
-@inner
+@lean
 def in_box(box, x, y, z):
     """Whether a point lies inside a box (6,)."""
     return box[0] < x < box[3] and box[1] < y < box[4] and box[2] < z < box[5]
 
 
-@inner
+@lean
 def offset(place):
     """Where the numbers of the triangle at a place begin."""
     return U(place // LEAF) * U(ROWS * LEAF) + U(place % LEAF)
 
 
-@inner
+@lean
 def side_of(leaves, slots, normal, row, place, px, py, pz):
     """Closest point on a triangle and the side the point is on: 1 outside, -1 inside, 0 where normals cannot tell.
 

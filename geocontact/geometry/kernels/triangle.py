@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, lean
 
 U = np.uint64
 LEAF = 32  # triangles in a leaf of the wide tree
@@ -84,12 +84,12 @@ def _frame(vertices, face, out):
     out[15] = shift
 
 
-@inner
+@lean
 def _length(v):
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
-@inner
+@lean
 def closest_point(r, o, px, py, pz):
     """Closest point of a triangle, the feature it lies on and the height over the triangle's plane.
 

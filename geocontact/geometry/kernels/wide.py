@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from geocontact.geometry.kernels.binary import DEPTH
-from geocontact.geometry.kernels.compile import inner, kernel
+from geocontact.geometry.kernels.compile import inner, kernel, part
 from geocontact.geometry.kernels.triangle import LEAF, U
 
 FAN = 16  # children of a node
@@ -131,7 +131,7 @@ def _fill(records, orientation, start, size, leaf, leaves, slots):
         leaves[o + 17 * LEAF] = orientation[slot]
 
 
-@inner
+@part
 def box_distances(boxes, o, x, y, z, out, n):
     """Squared distances of a point to the n = FAN boxes at offset o."""
     for j in range(n):
@@ -142,7 +142,7 @@ def box_distances(boxes, o, x, y, z, out, n):
         out[U(j)] = dx * dx + dy * dy + dz * dz
 
 
-@inner
+@part
 def leaf_distances(t, o, px, py, pz, out, n):
     """Squared distances of a point to the first n triangles at offset o; the cases of `triangle`, without branches.
 
@@ -167,3 +167,34 @@ def leaf_distances(t, o, px, py, pz, out, n):
         over = min(min(y, x * cy - y * cx), y * bx - back * cy)
         over = min(over, cy - 1e-300)  # nothing is over a collinear triangle
         out[U(j)] = h * h + (0.0 if over >= 0.0 else edge)
+
+
+@part
+def least_of(values, n):
+    """The least of the first n values, n a multiple of VECTOR above 0: eight rows, none of which waits for another."""
+    a, b, c, d = values[U(0)], values[U(1)], values[U(2)], values[U(3)]
+    e, f, g, h = values[U(4)], values[U(5)], values[U(6)], values[U(7)]
+    for k in range(VECTOR, n, VECTOR):
+        j = U(k)
+        a, b, c, d = (
+            min(a, values[j]),
+            min(b, values[j + U(1)]),
+            min(c, values[j + U(2)]),
+            min(d, values[j + U(3)]),
+        )
+        e, f, g, h = (
+            min(e, values[j + U(4)]),
+            min(f, values[j + U(5)]),
+            min(g, values[j + U(6)]),
+            min(h, values[j + U(7)]),
+        )
+    return min(min(min(a, e), min(b, f)), min(min(c, g), min(d, h)))
+
+
+@part
+def first_of(values, value):
+    """Number of the first of `values` that is `value`, which is one of them."""
+    j = U(0)
+    while values[j] != value:
+        j += U(1)
+    return np.int64(j)
