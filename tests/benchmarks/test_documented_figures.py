@@ -329,6 +329,17 @@ def test_speed_of_the_whole_command() -> None:
     assert f"took {fcpw:.2f} and {warp:.2f} s" in text
 
 
+def test_start_of_commands() -> None:
+    told = results("start")["figures"]
+    text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())
+    least, most = (choose(told["commands"], key=lambda each: told["commands"][each]["cpu_s"]) for choose in (min, max))
+    took, alone = ([f"{told['commands'][each][key]:.2f}" for each in (least, most)] for key in ("cpu_s", "floor_s"))
+    assert f"take {took[0]} (`{least}`) to {took[1]} CPU s (`{most}`)" in text
+    assert f"heavy packages alone {alone[0]} and {alone[1]}" in text
+    missed = any(each["cpu_s"] > told["aim_s"] for each in told["commands"].values())
+    assert (f"the aim of {told['aim_s']:g} s is missed" in text) == missed
+
+
 def test_a_frame_of_a_long_run() -> None:
     told = results("long_run")
     text = " ".join((ROOT / "docs/reference/speed.md").read_text(encoding="utf-8").split())

@@ -17,23 +17,23 @@ RATIOS = np.concatenate([[0.0], np.geomspace(1e-12, 1e4, 200)])
 @pytest.mark.parametrize(("above", "below"), [(1, 1), (2, 24), (7, 300), (64, 12)])
 def test_f(above: int, below: int) -> None:
     assert np.array_equal(f_nats(RATIOS, above, below), -stats.f.logsf(RATIOS, above, below))
-    several = np.full(RATIOS.shape, below)
+    several = np.full(RATIOS.shape, float(below))
     assert np.array_equal(f_nats(RATIOS, above, several), -stats.f.logsf(RATIOS, above, several))
 
 
 @pytest.mark.parametrize("freedom", [1, 2, 5, 40])
 def test_chi_square_and_gamma(freedom: int) -> None:
     for value in RATIOS[RATIOS < 700.0]:
-        assert chi_square_nats(value, freedom) == -stats.chi2.logsf(value, freedom)
-        assert gamma_nats(value, freedom) == -stats.gamma.logsf(value, freedom)
+        assert chi_square_nats(float(value), freedom) == -stats.chi2.logsf(value, freedom)
+        assert gamma_nats(float(value), freedom) == -stats.gamma.logsf(value, freedom)
 
 
 def test_one_exponential_has_its_own_value_and_far_values_no_limit() -> None:
     """Derived by hand: P(X >= x) = exp(-x) of a sum of one, exp(-x / 2) of a χ² of two."""
-    assert gamma_nats(300.0, 1.0) == pytest.approx(300.0, rel=1e-12)
-    assert chi_square_nats(300.0, 2.0) == pytest.approx(150.0, rel=1e-12)
-    assert gamma_nats(1e-20, 1.0) == pytest.approx(1e-20, rel=1e-12)
-    assert gamma_nats(1e5, 1.0) == np.inf
+    assert gamma_nats(300.0, 1) == pytest.approx(300.0, rel=1e-12)
+    assert chi_square_nats(300.0, 2) == pytest.approx(150.0, rel=1e-12)
+    assert gamma_nats(1e-20, 1) == pytest.approx(1e-20, rel=1e-12)
+    assert gamma_nats(1e5, 1) == np.inf
 
 
 def test_poisson() -> None:

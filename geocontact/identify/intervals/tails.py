@@ -10,23 +10,21 @@ from jaxtyping import Float
 from scipy.special import chdtr, chdtrc, fdtr, fdtrc, gammainc, gammaincc, pdtrc
 
 
-def chi_square_nats(value: float, freedom: float) -> float:
+def chi_square_nats(value: float, freedom: int) -> float:
     """-ln P(X >= value) of a χ² of `freedom` degrees of freedom.
 
-    >>> round(chi_square_nats(10.0, 2.0), 12)
+    >>> round(chi_square_nats(10.0, 2), 12)
     5.0
     """
     return float(_nats(np.asarray(chdtr(freedom, value)), np.asarray(chdtrc(freedom, value))))
 
 
-def f_nats(
-    ratio: Float[np.ndarray, "*n"], above: float, below: float | Float[np.ndarray, "*n"]
-) -> Float[np.ndarray, "*n"]:
+def f_nats(ratio: Float[np.ndarray, "*n"], above: int, below: int | Float[np.ndarray, "*n"]) -> Float[np.ndarray, "*n"]:
     """-ln P(X >= ratio) of Fisher's F with `above` and `below` degrees of freedom."""
     return _nats(np.asarray(fdtr(above, below, ratio)), np.asarray(fdtrc(above, below, ratio)))
 
 
-def gamma_nats(value: float, shape: float) -> float:
+def gamma_nats(value: float, shape: int) -> float:
     """-ln P(X >= value) of a gamma distribution of scale 1: of a sum of `shape` exponential ones."""
     return float(_nats(np.asarray(gammainc(shape, value)), np.asarray(gammaincc(shape, value))))
 
