@@ -54,13 +54,13 @@ def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fa
     waiting = 1
     while waiting > 0:
         waiting -= 1
-        if keys[waiting] >= best:
+        if keys[U(waiting)] >= best:
             continue
-        node = nodes[waiting]
+        node = nodes[U(waiting)]
         if node < 0:
             leaf = -2 - node
-            leaf_distances(leaves, U(leaf) * U(ROWS * LEAF), x, y, z, square, fill[leaf])
-            least = least_of(square, fill[leaf])
+            leaf_distances(leaves, U(leaf) * U(ROWS * LEAF), x, y, z, square, fill[U(leaf)])
+            least = least_of(square, fill[U(leaf)])
             if least < best:
                 best = least
                 place = leaf * LEAF + first_of(square, least)
@@ -68,15 +68,15 @@ def nearest(boxes, child, leaves, fill, x, y, z, limit2, nodes, keys, square, fa
         box_distances(boxes, U(node) * U(6 * FAN), x, y, z, square, fan)
         base = waiting
         for j in range(FAN):
-            d2 = square[j]
+            d2 = square[U(j)]
             if d2 < best:
                 k = waiting  # the nearest child ends on top
-                while k > base and keys[k - 1] < d2:
-                    keys[k] = keys[k - 1]
-                    nodes[k] = nodes[k - 1]
+                while k > base and keys[U(k - 1)] < d2:
+                    keys[U(k)] = keys[U(k - 1)]
+                    nodes[U(k)] = nodes[U(k - 1)]
                     k -= 1
-                keys[k] = d2
-                nodes[k] = child[node * FAN + j]
+                keys[U(k)] = d2
+                nodes[U(k)] = child[U(node * FAN + j)]
                 waiting += 1
     return best, place
 
