@@ -58,7 +58,7 @@ def carried(on: Transcription, meshes: tuple[Mesh, ...], multipliers: tuple[Vect
 
 
 def _rows(on: Transcription, coarse: Rows, begin: Vector, part: Vector) -> Rows:
-    """Of every interval of a finer mesh, from those of the interval that it lies in."""
+    """Multipliers of all rows of every interval of a finer mesh, from those of the interval that it lies in."""
     scheme, nx, count = on.scheme, on.nx, len(coarse)
     points, ends = coarse[:, :-nx].reshape(count, scheme.degree, -1), coarse[:, -nx:].copy()
     where = (begin[:, None] + part[:, None] * scheme.points).ravel()
