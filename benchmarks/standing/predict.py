@@ -36,7 +36,7 @@ def measured() -> list[dict[str, Any]]:
     from geocontact.analyses.sit_to_stand.standing_trials import standing_trials
     from geocontact.dynamics.collocation.blocks import sparse_program
     from geocontact.dynamics.collocation.motion import scheme
-    from geocontact.dynamics.collocation.solve import SolverOptions, refined, solve
+    from geocontact.dynamics.collocation.solve import SolverOptions, refined, rough, solve
     from geocontact.dynamics.collocation.transcription import Transcription, scales_from
     from geocontact.standing_up.chain import EVERY_PLANTED
     from geocontact.standing_up.exoskeleton import STRAP_PLANTED, strapped
@@ -57,7 +57,7 @@ def measured() -> list[dict[str, Any]]:
         on = Transcription(phase.control, scheme("radau", o.degree), (mesh,), scales_from(phase.control))
         sparse_program(on.blocks(), on.size)
         built = time.process_time() - began
-        coarse = solve(phase.control, options, meshes=(mesh,))
+        coarse = solve(phase.control, rough(options), meshes=(mesh,))
         found = refined(phase.control, coarse, options, model.turning)
         began = time.process_time()
         (seen,) = judged(model.equations, range(6), model.turning, phase, found)
@@ -67,7 +67,7 @@ def measured() -> list[dict[str, Any]]:
         row |= {"of it building [s]": built, "certificate [s]": time.process_time() - began, "certified": certified}
         row["objective"] = found.objective
         if first is not None:
-            warm = solve(phase.control, options, meshes=(mesh,), warm=first)
+            warm = solve(phase.control, rough(options), meshes=(mesh,), warm=first)
             warm = refined(phase.control, warm, options, model.turning)
             row["from the first one's answer"] = {
                 "iterations": warm.iterations, "search [s]": warm.seconds, "objective": warm.objective

@@ -35,7 +35,7 @@ class RecordedInputs:
 
     def __call__(self, t: float) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
         """Inputs and their derivatives; the first and last pieces go on beyond the ends."""
-        piece = int(np.clip(np.searchsorted(self.breaks, t, "right") - 1, 0, len(self.coefficients) - 1))
+        piece = min(max(int(self.breaks.searchsorted(t, "right")) - 1, 0), len(self.coefficients) - 1)
         s, value, slope = t - self.breaks[piece], np.zeros(self.count), np.zeros(self.count)
         for coefficient in self.coefficients[piece].T:
             slope = slope * s + value

@@ -298,7 +298,7 @@ class Stepper:
             later = at(there)
             found, off, rate = self.step(x, np.array([h]), given, later[0], slope, p)
             size = 0.0 if steps else _size(off, x, found, control.tolerance)
-            if not np.all(np.isfinite(found)):
+            if not np.isfinite(found).all():
                 size = np.inf
             if size <= 1.0:
                 rates.append(rate.copy())
@@ -316,7 +316,7 @@ class Stepper:
                 refused += 1
             if steps is None:
                 allowed = SAFE * size ** (-1.0 / ORDER) if size > 0.0 else GROW
-                h = min(h * float(np.clip(allowed, SHRINK, GROW)), control.longest)
+                h = min(h * min(max(allowed, SHRINK), GROW), control.longest)
             if h < SMALLEST * span or (steps and size > 1.0):
                 raise ArithmeticError(f"no step is short enough at {now:g} s")
         rates.append(self.step(x, np.array([h]), given, given, slope, p)[2].copy())
@@ -368,4 +368,4 @@ def _check_recorded(inputs: RecordedInputs, equations: Equations, start: float, 
 def _size(off: Vector, x: Vector, found: Vector, tolerance: float) -> float:
     """Largest error over what is allowed."""
     with np.errstate(invalid="ignore"):
-        return float(np.max(np.abs(off) / (tolerance * (1.0 + np.maximum(np.abs(x), np.abs(found)))), initial=0.0))
+        return float((abs(off) / (tolerance * (1.0 + np.maximum(abs(x), abs(found))))).max(initial=0.0))

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.collocation.motion import CollocatedMotion
-from geocontact.dynamics.collocation.solve import Progress, SolverOptions, refined, solve
+from geocontact.dynamics.collocation.solve import Progress, SolverOptions, refined, rough, solve
 from geocontact.standing_up.chain import FOOT_PARAMETERS, Subject
 from geocontact.standing_up.numbers_that_ran import (
     FROM_FILE,
@@ -110,7 +110,7 @@ def predicted_trial(
     """
     phase = phase_c(model, subject, trial, noise, p, tracks=tracks, weights=weights)
     mesh = np.linspace(0.0, 1.0, round(nodes * float(trial.time[-1])) + 1)
-    coarse = solve(phase.control, options, meshes=(mesh,), progress=progress)
+    coarse = solve(phase.control, rough(options), meshes=(mesh,), progress=progress)
     found = refined(phase.control, coarse, options, model.turning, progress=progress)
     motion = found.motions[0]
     (seen,) = judged(model.equations, range(model.count - 3), model.turning, phase, found, certify=found.solved)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 if TYPE_CHECKING:
     from casadi import DM, MX, SX, Function
@@ -41,24 +41,36 @@ class BlockFunctions:
     patterns: tuple[Int[np.ndarray, "2 _"], Int[np.ndarray, "2 _"]]
 
 
-def block_functions(variables: SX, data: SX, cost: SX, constraints: SX) -> BlockFunctions:
-    """Functions of expressions of the problem's variables and of numbers of each place."""
+def block_functions(
+    variables: SX, data: SX, cost: SX, constraints: SX, held: Bool[np.ndarray, " v"] | None = None
+) -> BlockFunctions:
+    """Functions of expressions of the problem's variables and of numbers of each place.
+
+    Parameters
+    ----------
+    held
+        Variables by which nothing is derived: slopes by them are given as 0, and no entry is theirs. None by default.
+    """
     from casadi import SX, Function, densify, gradient, hessian, jacobian, triu
 
-    rows = constraints.numel()
+    rows, count = constraints.numel(), variables.numel()
+    moves = np.arange(count) if held is None else np.flatnonzero(~held)
+    moving = variables[moves.tolist(), :]
     multipliers = SX.sym("multipliers", 1 + rows)
     lagrangian = multipliers[0] * cost + (multipliers[1:].T @ constraints if rows else 0.0)
-    by = jacobian(constraints, variables)
-    twice = triu(hessian(lagrangian, variables)[0])
+    by = jacobian(constraints, moving)
+    twice = triu(hessian(lagrangian, moving)[0])
+    slope = SX(count, 1)
+    slope[moves.tolist(), :] = gradient(cost, moving)
     first, second = (np.array(each.sparsity().get_triplet(), int) for each in (by, twice))
     given = [variables, data]
     return BlockFunctions(
         rows,
         Function("value", given, [densify(cost), densify(constraints)]),
-        Function("gradient", given, [densify(gradient(cost, variables))]),
+        Function("gradient", given, [densify(slope)]),
         Function("jacobian", given, [_nonzeros(by)]),
         Function("hessian", [*given, multipliers], [_nonzeros(twice)]),
-        (first, second),
+        (np.stack([first[0], moves[first[1]]]), moves[second]),
     )
 
 

@@ -79,7 +79,7 @@ class OptimalitySystem:
 
 def optimality_system(problem: ControlProblem, found: CollocationResult) -> OptimalitySystem:
     """At a solution, whose multipliers are used."""
-    on = Transcription(problem, found.motions[0].scheme, found.meshes, scales_from(problem))
+    on = Transcription(problem, found.motions[0].scheme, found.meshes, scales_from(problem), by_all=True)
     program = sparse_program(on.blocks(), on.size)
     z = on.again(found.p, found.motions)
     upper = program.hessian(z, [], 1.0, found.multipliers[1]).sparse()

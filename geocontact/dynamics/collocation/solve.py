@@ -20,6 +20,7 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.blocks import SparseProgram, sparse_program
 from geocontact.dynamics.collocation.certificate import CertificateLimits, fine_residual, interval_residuals
 from geocontact.dynamics.collocation.motion import CollocatedMotion, scheme
+from geocontact.dynamics.collocation.multipliers import carried, nested
 from geocontact.dynamics.collocation.problem import ControlProblem, checked
 from geocontact.dynamics.collocation.transcription import Mesh, Transcription, scales_from
 
@@ -29,6 +30,13 @@ if TYPE_CHECKING:
 
 MOST_HALVINGS = 4
 """Halvings of an interval, at the most: to a sixteenth of its first length."""
+ROUGH = 1e-3
+"""Tolerance on meshes that are halved afterwards: what they leave of the balance is then known to a hundredth."""
+
+
+def rough(options: SolverOptions) -> SolverOptions:
+    """The same with the tolerance of meshes on the way."""
+    return replace(options, tolerance=max(options.tolerance, ROUGH))
 
 
 def refined(
@@ -42,20 +50,26 @@ def refined(
     """Solve again, from what was found, on meshes of `halved`, until no interval leaves more than the limits let pass.
 
     At most `MOST_HALVINGS` times, and no further where a search was not solved; iterations and seconds are those of all
-    searches, and the options' seconds hold for all of them.
+    searches, and the options' seconds hold for all of them. Meshes on the way are solved to `ROUGH`, the last one to
+    the options' tolerance.
 
     Parameters
     ----------
+    found
+        Solved to any tolerance.
     turning
         Of each coordinate: whether it is an angle, so that its balance is in N m.
     """
-    began, iterations, seconds = process_time(), found.iterations, found.seconds
-    for _ in range(MOST_HALVINGS):
-        meshes = halved(problem, found, turning, limits)
-        if not found.solved or all(len(a) == len(b) for a, b in zip(meshes, found.meshes, strict=True)):
+    began, iterations, seconds, halvings = process_time(), found.iterations, found.seconds, 0
+    while found.solved:
+        meshes = halved(problem, found, turning, limits) if halvings < MOST_HALVINGS else found.meshes
+        same = all(len(a) == len(b) for a, b in zip(meshes, found.meshes, strict=True))
+        if same and found.tolerance <= options.tolerance:
             break
+        halvings += not same
         left = max(options.seconds - seconds - (process_time() - began), 1e-3)
-        found = solve(problem, replace(options, seconds=left), meshes=meshes, warm=found, progress=progress)
+        chosen = replace(options if same else rough(options), seconds=left)
+        found = solve(problem, chosen, meshes=meshes, warm=found, progress=progress)
         iterations += found.iterations
     return replace(found, iterations=iterations, seconds=seconds + process_time() - began)
 
@@ -162,6 +176,8 @@ class CollocationResult:
         The last.
     multipliers
         Of the last problem: of the bounds and of the constraints, for the next start.
+    tolerance
+        To which it was searched.
     """
 
     solved: bool
@@ -174,6 +190,7 @@ class CollocationResult:
     seconds: float
     meshes: tuple[Mesh, ...]
     multipliers: tuple[Vector, Vector]
+    tolerance: float
 
 
 def solve(
@@ -217,11 +234,7 @@ def _solved(
 ) -> CollocationResult:
     program = sparse_program(on.blocks(), on.size)
     low, high = on.bounds()
-    start = {"x0": on.guess()}
-    if warm is not None:
-        start["x0"] = on.again(warm.p, warm.motions) if _same_mesh(on, warm) else on.resampled(warm.p, warm.motions)
-        if len(warm.multipliers[0]) == on.size:
-            start |= {"lam_x0": warm.multipliers[0], "lam_g0": warm.multipliers[1]}
+    start = {"x0": on.guess()} if warm is None else _from(on, warm)
     watch = _watch(program, progress)
     settings = _settings(o, warm is not None, "lam_x0" in start, max(seconds, 1e-3))
     from casadi import nlpsol
@@ -260,12 +273,26 @@ def _solved(
         0.0,
         on.meshes,
         (np.array(answer["lam_x"]).ravel(), np.array(answer["lam_g"]).ravel()),
+        o.tolerance,
     )
 
 
-def _same_mesh(on: Transcription, warm: CollocationResult) -> bool:
-    same = all(len(a) == len(b) and np.array_equal(a, b) for a, b in zip(on.meshes, warm.meshes, strict=True))
-    return same and all(np.array_equal(m.scheme.points, on.scheme.points) for m in warm.motions)
+MOST_NEW = 1.5
+"""Times as many intervals up to which multipliers are carried: those of a mesh far coarser lead astray."""
+
+
+def _from(on: Transcription, warm: CollocationResult) -> dict[str, Vector]:
+    """Where a search starts that follows another one; without multipliers where the solver estimates better ones."""
+    same_points = all(np.array_equal(m.scheme.points, on.scheme.points) for m in warm.motions)
+    if same_points and all(np.array_equal(a, b) for a, b in zip(on.meshes, warm.meshes, strict=True)):
+        start, known = on.again(warm.p, warm.motions), warm.multipliers
+        return {"x0": start, "lam_x0": known[0], "lam_g0": known[1]}
+    start = on.resampled(warm.p, warm.motions)
+    longer = sum(map(len, on.meshes)) < MOST_NEW * sum(map(len, warm.meshes))
+    if not (same_points and longer and nested(warm.meshes, on.meshes)):
+        return {"x0": start}
+    known = carried(on, warm.meshes, warm.multipliers)
+    return {"x0": start, "lam_x0": known[0], "lam_g0": known[1]}
 
 
 def _settings(o: SolverOptions, warm: bool, multipliers: bool, seconds: float) -> dict[str, Any]:

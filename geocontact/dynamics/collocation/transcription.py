@@ -68,10 +68,16 @@ class Transcription:
         One for each trial.
     scales
         Variables and constraints are divided by these.
+    by_all
+        Whether blocks are derived also by parameters and durations whose bounds are equal: no search needs that.
     """
 
-    def __init__(self, problem: ControlProblem, scheme: Scheme, meshes: tuple[Mesh, ...], scales: Scales) -> None:
+    def __init__(
+        self, problem: ControlProblem, scheme: Scheme, meshes: tuple[Mesh, ...], scales: Scales, *, by_all: bool = False
+    ) -> None:
         self.problem, self.scheme, self.meshes, self.scales = problem, scheme, meshes, scales
+        given = all(trial.duration[0] == trial.duration[1] for trial in problem.trials)
+        self.held = np.r_[problem.p[0] == problem.p[1], given] & (not by_all)
         s = problem.system
         self.nx, self.nu, self.np = s.x.numel(), s.u.numel(), s.p.numel()
         self.stride = self.nx + scheme.degree * (self.nx + self.nu)
@@ -193,10 +199,12 @@ class Transcription:
 
         They are the same on all meshes, and to derive them takes as long as several iterations.
         """
-        sizes = (each.tobytes() for each in (self.scales.x, self.scales.u, self.scales.p, self.scales.path))
+        sizes = (each.tobytes() for each in (self.scales.x, self.scales.u, self.scales.p, self.scales.path, self.held))
         key, known = (of, self.scheme.kind, self.scheme.degree, *sizes), self.problem.derived
         if key not in known:
-            known[key] = block_functions(*make())
+            variables, data, cost, constraints = make()
+            held = np.r_[self.held, np.zeros(variables.numel() - len(self.held), bool)]
+            known[key] = block_functions(variables, data, cost, constraints, held)
         return known[key]
 
     def _ends(self) -> tuple[SX, SX, SX, SX]:

@@ -25,10 +25,12 @@ from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import ControlledTrial, ControlProblem
 from geocontact.dynamics.collocation.solve import (
     MOST_HALVINGS,
+    ROUGH,
     CollocationResult,
     SolverOptions,
     halved,
     refined,
+    rough,
     solve,
 )
 from geocontact.dynamics.equations import equations_of_motion
@@ -146,6 +148,25 @@ def test_only_intervals_that_leave_too_much_are_halved(swung) -> None:
     assert fine.solved and left_at(stepper, fine, np.linspace(0.0, 1.0, 101)).max() <= limits.moment
     assert len(coarse.meshes[0]) < len(fine.meshes[0]) < 80 and fine.iterations > coarse.iterations
     assert len(halved(problem, fine, (True, True), limits)[0]) == len(fine.meshes[0])
+
+
+def test_meshes_on_the_way_are_solved_roughly_the_last_as_asked(swung) -> None:
+    """The same mesh and answer as from meshes that are all solved to the tolerance, in fewer iterations."""
+    problem, options = swung[0], SolverOptions("radau", 3, 5)
+    limits = CertificateLimits(moment=0.05)
+    coarse = solve(problem, rough(options))
+    assert coarse.tolerance == ROUGH and coarse.solved
+    found = refined(problem, coarse, options, (True, True), limits)
+    assert found.solved and found.tolerance == options.tolerance
+    each = solve(problem, options)
+    iterations = each.iterations
+    while len((meshes := halved(problem, each, (True, True), limits))[0]) > len(each.meshes[0]):
+        each = solve(problem, options, meshes=meshes)
+        iterations += each.iterations
+    np.testing.assert_array_equal(found.meshes[0], each.meshes[0])
+    assert len(found.meshes[0]) > 8 and found.iterations < iterations, (found.iterations, iterations)
+    assert found.objective == pytest.approx(each.objective, rel=1e-6)
+    np.testing.assert_allclose(found.motions[0].states, each.motions[0].states, atol=1e-5)
 
 
 def test_halving_comes_to_an_end(swung) -> None:

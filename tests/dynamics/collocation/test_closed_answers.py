@@ -13,6 +13,7 @@ from casadi import SX, sin
 from geocontact.data.errors import InputError
 from geocontact.dynamics.collocation.blocks import sparse_program
 from geocontact.dynamics.collocation.motion import scheme
+from geocontact.dynamics.collocation.multipliers import carried
 from geocontact.dynamics.collocation.problem import ControlProblem
 from geocontact.dynamics.collocation.solve import SolverOptions, solve
 from geocontact.dynamics.collocation.transcription import Transcription, scales_from
@@ -83,7 +84,7 @@ def test_gradient_and_hessian_against_differences() -> None:
     """With shared parameters, inputs, a path and a duration among the variables."""
     problem = shared_parameter()
     meshes = np.array([0.0, 0.3, 1.0]), np.array([0.0, 0.5, 0.6, 1.0])
-    on = Transcription(problem, scheme("radau", 2), meshes, scales_from(problem))
+    on = Transcription(problem, scheme("radau", 2), meshes, scales_from(problem), by_all=True)
     program = sparse_program(on.blocks(), on.size)
     rng = np.random.default_rng(0)
     z, weights, h = on.guess() + 0.1 * rng.normal(size=on.size), rng.normal(size=len(program.lower)), 1e-5
@@ -101,6 +102,63 @@ def test_gradient_and_hessian_against_differences() -> None:
     upper = np.array(program.hessian(z, [], 0.7, weights).full())
     assert not np.tril(upper, -1).any()
     np.testing.assert_allclose(upper + np.triu(upper, 1).T, curves, atol=1e-7)
+
+
+def test_a_search_derives_by_what_it_moves_alone() -> None:
+    """Without entries of a parameter and of durations that are given; all others as with them."""
+    whole = shared_parameter()
+    problem = replace(whole, p=(np.array([-9.0, 0.5]), np.array([9.0, 0.5])))
+    meshes, points = (np.array([0.0, 0.3, 1.0]), np.array([0.0, 1.0])), scheme("radau", 2)
+    every, on = (
+        Transcription(problem, points, meshes, scales_from(problem), by_all=by_all) for by_all in (True, False)
+    )
+    low, high = on.bounds()
+    held = np.r_[1, on.first[:-1]]  # the second parameter and both durations; first states are given too
+    moves = ~np.isin(np.arange(on.size), held)
+    assert (low[held] == high[held]).all()
+    z = on.guess() + 0.1 * np.random.default_rng(0).normal(size=on.size)
+    derived = []
+    for each in (every, on):
+        program = sparse_program(each.blocks(), each.size)
+        weights = np.linspace(-1.0, 1.0, len(program.lower))
+        slopes = np.array(program.gradient(z, [])[1]).ravel(), program.jacobian(z, [])[1].full()
+        derived.append((*slopes, program.hessian(z, [], 0.7, weights).full()))
+    (slope, rows, curves), (by_few, rows_of_few, curves_of_few) = derived
+    np.testing.assert_allclose(by_few, np.where(moves, slope, 0.0))
+    np.testing.assert_allclose(rows_of_few, np.where(moves, rows, 0.0))
+    np.testing.assert_allclose(curves_of_few, np.where(np.outer(moves, moves), curves, 0.0))
+    assert np.abs(rows[:, held]).max() > 0.1 and np.abs(slope[held]).max() > 0.1
+
+
+def test_multipliers_carried_to_a_finer_mesh_are_nearly_its_own() -> None:
+    """Two trials, a path, parameters: as good as sought anew, and nearer by the order than a mesh twice as coarse."""
+    problem = shared_parameter()
+    off = []
+    for count in (3, 6):
+        coarse = tuple(np.linspace(0.0, 1.0, count + 1) ** power for power in (1.0, 1.2))
+        options = SolverOptions("radau", 3, tolerance=1e-11)
+        found = solve(problem, options, meshes=coarse)
+        fine = tuple(np.sort(np.r_[mesh, 0.5 * (mesh[:-1] + mesh[1:])[::2]]) for mesh in coarse)
+        again = solve(problem, options, meshes=fine, warm=found)
+        assert found.solved and again.solved
+        on = Transcription(problem, scheme("radau", 3), fine, scales_from(problem))
+        bounds, rows = carried(on, found.meshes, found.multipliers)
+        assert bounds.shape == (on.size,) and rows.shape == again.multipliers[1].shape
+        off.append(np.abs(rows - again.multipliers[1]).max() / np.abs(rows).max())
+    assert off[1] < 0.01 and off[1] < 0.3 * off[0], off
+
+
+def test_multipliers_of_bounds_stay_where_intervals_do() -> None:
+    """The quickest move: full ahead on all intervals of the first half, of which one is cut."""
+    problem = quickest_move()
+    found = solve(problem, SolverOptions("radau", 2, 4))
+    on = Transcription(problem, scheme("radau", 2), (np.array([0, 0.125, 0.25, 0.5, 0.75, 1]),), scales_from(problem))
+    bounds = carried(on, found.meshes, found.multipliers)[0]
+    pushes = lambda of, m: of[1:-2].reshape(m, 8)[:, [4, 7]]  # noqa: E731
+    before, after = pushes(found.multipliers[0], 4), pushes(bounds, 5)
+    assert np.abs(before).min() > 1e-3
+    np.testing.assert_array_equal(after[2:], before[1:])
+    assert not after[:2].any() and bounds[0] == found.multipliers[0][0]
 
 
 def test_refinement_halves_where_the_residual_is() -> None:
