@@ -50,8 +50,24 @@ def slope(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int) -> 
 
 
 @kernel
+def cubic(
+    time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int, at: float, left: float, right: float
+) -> float:
+    """Cubic Hermite interpolation between samples i and i + 1 that have these slopes; exact at both."""
+    h = time[i + 1] - time[i]
+    u = (at - time[i]) / h
+    if u <= 0.0:
+        return float(y[i])
+    if u >= 1.0:
+        return float(y[i + 1])
+    left, right = h * left, h * right
+    step = y[i + 1] - y[i]
+    return float(y[i] + u * (left + u * (3.0 * step - 2.0 * left - right + u * (left + right - 2.0 * step))))
+
+
+@kernel
 def between(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int, at: float) -> float:
-    """Cubic Hermite interpolation between samples i and i + 1; exact at both, even beside a missing one."""
+    """The same with the slopes of parabolas through neighbours; exact at both samples, even beside a missing one."""
     h = time[i + 1] - time[i]
     u = (at - time[i]) / h
     if u <= 0.0:
@@ -60,9 +76,7 @@ def between(time: Float[np.ndarray, " t"], y: Float[np.ndarray, " t"], i: int, a
         return float(y[i + 1])
     if not (np.isfinite(y[i]) and np.isfinite(y[i + 1])):
         return np.nan
-    left, right = h * slope(time, y, i), h * slope(time, y, i + 1)
-    step = y[i + 1] - y[i]
-    return float(y[i] + u * (left + u * (3.0 * step - 2.0 * left - right + u * (left + right - 2.0 * step))))
+    return float(cubic(time, y, i, at, slope(time, y, i), slope(time, y, i + 1)))
 
 
 @kernel
@@ -117,23 +131,50 @@ def with_play(
 
 
 @kernel
+def decay_of_steps(
+    time: Float[np.ndarray, " t"], quick: float, slow: float
+) -> tuple[Float[np.ndarray, " t"], Float[np.ndarray, "four t"]]:
+    """Length of the pieces before each sample [s], and what `two_stages` fades by over one of them.
+
+    These are exp(-h/slow), h/quick (0 for a wire), the mean of exp(-(1/quick - 1/slow) t) over a piece, exp(-h/quick).
+    """
+    length, out = np.zeros(time.size), np.zeros((4, time.size))
+    for i in range(1, time.size):
+        h = (time[i] - time[i - 1]) / PIECES
+        length[i] = h
+        out[0, i] = math.exp(-h / slow)
+        if quick <= 0.0 or h / quick > 700.0:
+            continue
+        apart = h * (1.0 / quick - 1.0 / slow)
+        out[1, i] = h / quick
+        out[2, i] = -math.expm1(-apart) / apart if abs(apart) > 1e-12 else 1.0
+        out[3, i] = math.exp(-h / quick)
+    return length, out
+
+
+@kernel
 def two_stages(
-    first: float, second: float, y: float, rise: float, h: float, quick: float, slow: float
+    first: float,
+    second: float,
+    y: float,
+    rise: float,
+    h: float,
+    quick: float,
+    slow: float,
+    fades: Float[np.ndarray, " four"],
 ) -> tuple[float, float]:
     """Both stages of a filter `h` seconds on, for an input that starts at `y` and rises at the slope `rise`.
 
-    first' = (input - first)/slow, second' = (first - second)/quick, in closed form; quick = 0 is a wire.
+    first' = (input - first)/slow, second' = (first - second)/quick, in closed form; quick = 0 is a wire. `fades` are
+    a column of `decay_of_steps`.
     """
     end = y + rise * h
-    fades = math.exp(-h / slow)
     excess = first - y + slow * rise
-    one = end - slow * rise + excess * fades
-    if quick <= 0.0 or h / quick > 700.0:
+    one = end - slow * rise + excess * fades[0]
+    if fades[1] == 0.0:
         return one, one
-    apart = h * (1.0 / quick - 1.0 / slow)
-    weight = -math.expm1(-apart) / apart if abs(apart) > 1e-12 else 1.0
     settled = y - (slow + quick) * rise
-    two = settled + rise * h + excess * fades * (h / quick) * weight + (second - settled) * math.exp(-h / quick)
+    two = settled + rise * h + excess * fades[0] * fades[1] * fades[2] + (second - settled) * fades[3]
     return one, two
 
 
@@ -151,26 +192,28 @@ def lagged(
         return out
     quick = 0.5 * (order - 1.0) * lag
     slow = lag - quick
+    length, fades = decay_of_steps(time, quick, slow)
     for c in range(values.shape[1]):
         y = values[:, c].copy()
         low, high, _ = extent(y)
         going = False
-        one = two = 0.0
+        one = two = left = right = 0.0
         for i in range(y.size):
             if not np.isfinite(y[i]):
                 going = False
                 continue
+            right = slope(time, y, i)
             if going:
-                h = (time[i] - time[i - 1]) / PIECES
-                start = y[i - 1]
+                h, start = length[i], y[i - 1]
                 for piece in range(1, PIECES + 1):
-                    end = between(time, y, i - 1, time[i - 1] + piece * h)
-                    one, two = two_stages(one, two, start, (end - start) / h, h, quick, slow)
+                    end = cubic(time, y, i - 1, time[i - 1] + piece * h, left, right)
+                    one, two = two_stages(one, two, start, (end - start) / h, h, quick, slow, fades[:, i])
                     start = end
             else:
                 rise = outset(time, y, i)
                 one = min(max(y[i] - slow * rise, low), high)
                 two = min(max(y[i] - lag * rise, low), high)
                 going = True
+            left = right
             out[i, c] = two
     return out

@@ -37,44 +37,30 @@ from geocontact.gap.budget_verdict import (
     withdrawn,
 )
 from geocontact.gap.case.admission import admitted
-from geocontact.gap.case.noise_sources import coarse_rates
 from geocontact.gap.case.refit import free
 from geocontact.gap.detected import detected
 from geocontact.gap.experiment.proposal import first_of, next_experiment
 from geocontact.gap.held_out_growth import confirmed, errors_of
 from geocontact.gap.identifiability.non_identifiable import non_identifiable
 from geocontact.gap.identifiability.separability import one_law
-from geocontact.gap.levels import LEFT_OVER, SURE, WORTH_NAMING
+from geocontact.gap.levels import LEFT_OVER
 from geocontact.gap.localise.gap_map import gap_map, windows
 from geocontact.gap.localise.on_surface import on_surface
 from geocontact.gap.localise.regions import regions
 from geocontact.gap.reduction.error_budget import ChannelBudget, error_budget
 from geocontact.gap.reduction.error_reduction import (
     TrialGain,
-    error_reduction,
     error_reduction_of,
     held_out,
     leave_one_out,
 )
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
+from geocontact.gap.remarks import remarks
 from geocontact.gap.selection.evidence import Judged, prior_spread
-from geocontact.gap.selection.model_comparison import Contender, base_contender
+from geocontact.gap.selection.model_comparison import base_contender
 from geocontact.gap.selection.verdict import Answer, with_lapses
 from geocontact.gap.unmodelled import ZERO, imitated, unmodelled
 from geocontact.identify.intervals.quantile_intervals import ENDS
-
-
-def nearest(found: Attribution) -> tuple[str, ...]:
-    """In words what the model that gains most would do, where nothing was named although it gains something."""
-    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
-    gain = best.nats - found.base.nats
-    if gain < SURE:
-        return ()
-    shrunk = error_reduction(found.problem, found.clean, best.judged, True, found.data_error)
-    parts = ", ".join(f"{100.0 * s.reduction:.0f} % of the error of {name}" for name, s in shrunk.items())
-    only = ", with an amplitude on the bound of what is physical" if best.cut_short else ""
-    return (f"nearest of the known effects: {best.label}, which gains {gain:.0f} nats and would remove {parts}{only}",)
-
 
 TOLD = 0.5  # of the prior's spread that the fit's may be, for a parameter that the trials tell
 
@@ -179,7 +165,7 @@ def findings(
         seconds=time.perf_counter() - began,
         version=version,
         faults=_faults(found),
-        remarks=_remarks(found, part is None, errors, budget),
+        remarks=remarks(found, part is None, errors, budget),
         next_experiment=then,
         partial=part,
         behind=behind(found) if said.effects else {},
@@ -300,34 +286,6 @@ def ranking(found: Attribution, probabilities: Mapping[str, float]) -> tuple[Ran
     return tuple(sorted(rows, key=lambda row: -row.gain))
 
 
-def _remarks(
-    found: Attribution, unexplained: bool, errors: RawInputErrors, budget: Mapping[str, ChannelBudget]
-) -> tuple[str, ...]:
-    """What is odd, in words; `unexplained` where nothing known explains a part of an unknown gap."""
-    said = found.answer
-    return (
-        *(each.told for each in (*found.odd, *found.recorder)),
-        *(f"{each.words} {found.problem.system.unit(each.channel)}, in {each.channel}" for each in found.flat),
-        *(f"{each.words} in {channel}" for channel, each in found.heavy.items()),
-        *missed_words(budget, said.verdict),
-        *coarse_rates(found.problem),
-        *objection(found),
-        *(nearest(found) if said.verdict == "unknown" and unexplained else ()),
-        *(on_bounds(said.chosen, found.base, errors.fitted, errors.values) if said.effects else ()),
-    )
-
-
-def missed_words(budget: Mapping[str, ChannelBudget], verdict: str) -> tuple[str, ...]:
-    """How much of a channel's squared error is surely missed, where that is why nothing, or not all, is named."""
-    if verdict not in ("unknown", "partly_explained"):
-        return ()
-    found = ((name, one.missed) for name, one in budget.items() if one.missed >= WORTH_NAMING)
-    return tuple(
-        f"at least {share:.0%} of the squared error of {name} is neither noise nor variation from trial to trial"
-        for name, share in found
-    )
-
-
 def behind(found: Attribution) -> dict[str, float]:
     """By how many nats each effect that is in question and not named is behind what is.
 
@@ -337,32 +295,6 @@ def behind(found: Attribution) -> dict[str, float]:
     rivals = [name for name in said.ambiguity if name not in said.effects]
     best = {name: max((c.nats for c in found.contenders if c.names == (name,)), default=None) for name in rivals}
     return {name: max(said.chosen.nats - nats, 0.0) for name, nats in best.items() if nats is not None}
-
-
-def objection(found: Attribution) -> tuple[str, ...]:
-    """In words why the model that gains most is not named, where it gains surely."""
-    best = max(found.contenders, key=lambda one: one.nats, default=found.base)
-    why, gain = found.objections.get(best.label, ""), best.nats - found.base.nats
-    return (f"{best.label} gains {gain:.0f} nats and is not named: {why}",) if why and gain > SURE else ()
-
-
-def on_bounds(chosen: Contender, base: Contender, values: dict[str, float], alone: dict[str, float]) -> tuple[str, ...]:
-    """In words which shapes of named effects, and which base parameters only beside them, end on a bound.
-
-    `values` are the parameters of what is named, `alone` those of the base model.
-    """
-    system, bare = chosen.judged.model.system, base.judged.model.system
-    ended, stays = prior_spread(system, values) == 0.0, prior_spread(bare, alone) == 0.0
-    shapes = {p.name for one in chosen.candidates for p in one.parameters[1:]}
-    driven = {p.name for p, on_it in zip(free(bare), stays, strict=True) if not on_it}
-    names = " + ".join(chosen.names)
-    told = []
-    for p, on_it in zip(free(system), ended, strict=True):
-        if on_it and p.name in shapes:
-            told.append(f"the shape {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
-        elif on_it and p.name in driven:
-            told.append(f"with {names} the base parameter {p.name} ends on its bound, {values[p.name]:.3g} {p.unit}")
-    return tuple(told)
 
 
 def estimates(judged: Judged, told: dict[str, float]) -> dict[str, Estimate]:

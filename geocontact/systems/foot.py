@@ -19,6 +19,7 @@ from geocontact.chain.magnitudes import Magnitudes
 from geocontact.chain.system import System
 from geocontact.chain.traits import Mass, Traits, Way
 from geocontact.data.parameter import Parameter
+from geocontact.geometry.kernels.compile import kernel
 from geocontact.systems.base import Base, CaseNeeds, require_numbers
 from geocontact.systems.foot_spheres import INPUTS, FootSpheres
 
@@ -42,11 +43,24 @@ TRAITS = Traits(
 
 def resultant(loads: Loads) -> Float[np.ndarray, "t c"]:
     """Sums of the forces and their centre Σ F_n x / Σ F_n; NaN off the ground."""
-    vertical = loads.normal.sum(axis=1)
-    moment = np.einsum("ij,ij->i", loads.normal, loads.arm)
-    centre = np.full_like(vertical, np.nan)
-    np.divide(moment, vertical, out=centre, where=vertical > 0.0)
-    return np.column_stack((loads.tangential.sum(axis=1), vertical, centre))
+    return np.asarray(sums(*(np.ascontiguousarray(each) for each in (loads.normal, loads.tangential, loads.arm))))
+
+
+@kernel
+def sums(
+    normal: Float[np.ndarray, "t n"], tangential: Float[np.ndarray, "t n"], arm: Float[np.ndarray, "t n"]
+) -> Float[np.ndarray, "t three"]:
+    """Σ F_t, Σ F_n and Σ F_n x / Σ F_n of every sample, NaN where Σ F_n is not positive."""
+    out = np.empty((normal.shape[0], 3))
+    for i in range(normal.shape[0]):
+        along = down = moment = 0.0
+        for j in range(normal.shape[1]):
+            along += tangential[i, j]
+            down += normal[i, j]
+            moment += normal[i, j] * arm[i, j]
+        out[i, 0], out[i, 1] = along, down
+        out[i, 2] = moment / down if down > 0.0 else np.nan
+    return out
 
 
 def without_centre(outputs: Channels, movement: DifferentiatedInputs, values: Values) -> Channels:

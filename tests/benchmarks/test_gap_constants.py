@@ -20,8 +20,8 @@ from benchmarks.gap.later_constants import attributed, changes, inside, row, tol
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
-from geocontact.gap import diagnose as partial_answer
 from geocontact.gap import levels
+from geocontact.gap import remarks as partial_answer
 from geocontact.gap.case import plain_fit, refit
 from geocontact.gap.selection import residual_anomalies as clipping
 from geocontact.gap.selection import surrogate, verdict

@@ -15,7 +15,8 @@ from geocontact.data.diagnosis import Diagnosis
 from geocontact.data.parameter import Parameter
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case.preparation import problem_of
-from geocontact.gap.diagnose import diagnose, estimates, on_bounds
+from geocontact.gap.diagnose import diagnose, estimates
+from geocontact.gap.remarks import on_bounds
 from geocontact.gap.selection.model_comparison import Contender
 from geocontact.systems.catalogue import system_of
 from tests.elsewhere import Elsewhere

@@ -11,9 +11,9 @@ from geocontact.data.gap_case import GapCase
 from geocontact.gap import held_out_growth
 from geocontact.gap.attribute import Attribution
 from geocontact.gap.data_errors import DataError
-from geocontact.gap.diagnose import objection
 from geocontact.gap.held_out_growth import confirmed, growth
 from geocontact.gap.reduction.raw_input_errors import RawInputErrors
+from geocontact.gap.remarks import objection
 from tests.cli.gap_cases import diagnosed_elbow
 
 pytestmark = pytest.mark.slow

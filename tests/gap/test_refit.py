@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from geocontact.chain.effect import Candidate
+from geocontact.chain.system import System
 from geocontact.effects.catalogue import candidates
 from geocontact.gap.case import refit as refit_module
 from geocontact.gap.case.noise_sources import rough_noise
@@ -31,6 +34,30 @@ def test_base_parameters_are_found_from_any_start() -> None:
         assert best.values[name] == pytest.approx(value, rel=0.1)
     for p in free(system):
         assert p.lower <= best.values[p.name] <= p.upper
+
+
+def test_a_known_fit_is_not_simulated_again_where_a_search_sets_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Under another weight it ends where it would without; trials after those that are fitted do not count."""
+    system, data, whiten = measured()
+    first = refit(system, data, whiten, [TRUE])
+    longer = replace(first, residuals=[*first.residuals, np.full((4, 1), np.nan)])
+    louder = [Plain(there, np.array([3.0 * NOISE])) for there in data.present]
+    alone = refit(system, data, louder, [first.values])
+    seen: list[dict[str, float]] = []
+    simulated = Measured.residuals
+
+    def residuals(own: Measured, model: System, values: dict[str, float]) -> list[np.ndarray]:
+        seen.append(dict(values))
+        return simulated(own, model, values)
+
+    monkeypatch.setattr(Measured, "residuals", residuals)
+    again = refit(system, data, louder, [first.values], known=[longer])
+    assert first.values not in seen
+    assert again.cost == pytest.approx(alone.cost, rel=1e-9)
+    assert len(again.residuals) == len(data.trials)
+    elsewhere = refit(system, data, louder, [{**first.values, "k": 1.1 * first.values["k"]}], known=[longer])
+    assert len(seen) > 1
+    assert elsewhere.values == pytest.approx(alone.values, rel=1e-3)
 
 
 def test_derivatives_are_central_differences() -> None:

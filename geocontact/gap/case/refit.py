@@ -178,15 +178,17 @@ def refit(
     starts: Sequence[Mapping[str, float]],
     rounds: int = ROUNDS // 2,
     useful: float = np.inf,
+    known: Sequence[Refit] = (),
 ) -> Refit:
     """Bounded least squares of the weighed residuals, the best of several starts.
 
     `rounds` are those of each start. A start is left as soon as it does not promise to come `ENOUGH` below
-    those before it, and below the cost `useful`.
+    those before it, and below the cost `useful`. Fits of the same system to the same trials that are `known`, however
+    they were weighed, are not simulated again where a search sets out from them; trials after these do not count.
     """
     if not free(system):
         return at(system, measured, whitenings, {})
-    search = RefitSearch(system, measured, whitenings)
+    search = RefitSearch(system, measured, whitenings, known)
     best, cost = None, np.inf
     for start in starts:
         found = search.from_start(start, rounds, min(useful, cost - ENOUGH))
@@ -200,19 +202,26 @@ def refit(
 class RefitSearch:
     """Least squares over the free parameters, each in its magnitude; nothing is simulated twice at one place."""
 
-    def __init__(self, system: System, measured: Measured, whitenings: Sequence[Whiten]) -> None:
+    def __init__(
+        self, system: System, measured: Measured, whitenings: Sequence[Whiten], known: Sequence[Refit] = ()
+    ) -> None:
         self.parameters = free(system)
         self.scale = np.array([magnitude(p) for p in self.parameters])
         self.lower = np.array([p.lower for p in self.parameters]) / self.scale
         self.upper = np.array([p.upper for p in self.parameters]) / self.scale
         self.system, self.whitenings = system, whitenings
+        count, there = len(measured.trials), {self.point(one.values).tobytes(): one for one in known}
 
         @lru_cache(maxsize=2)  # where the search stands, and where it tries to go
         def residuals(point: bytes) -> list[Float[np.ndarray, "_ c"]]:
+            if point in there:
+                return there[point].residuals[:count]
             return measured.residuals(system, self.values(np.frombuffer(point)))
 
         @lru_cache(maxsize=1)
         def slopes(point: bytes) -> list[Float[np.ndarray, "_ c p"]]:
+            if point in there:
+                return there[point].jacobian[:count]
             return derivatives(system, measured, self.values(np.frombuffer(point)), residuals(point))
 
         self.residuals, self.slopes = residuals, slopes
@@ -220,6 +229,10 @@ class RefitSearch:
     def values(self, z: Float[np.ndarray, " p"]) -> dict[str, float]:
         """Parameters by name."""
         return {p.name: float(v) for p, v in zip(self.parameters, z * self.scale, strict=True)}
+
+    def point(self, start: Mapping[str, float]) -> Float[np.ndarray, " p"]:
+        """Where these values are in the search, the parameters' own start where they say nothing."""
+        return np.asarray(np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale)
 
     def from_start(self, start: Mapping[str, float], rounds: int, useful: float = np.inf) -> GaussNewtonResult:
         """The least cost near a start, from the parameters' own where it says nothing."""
@@ -230,8 +243,7 @@ class RefitSearch:
         def slope(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
             return np.asarray(-self._weighed(self.slopes(z.tobytes())) * self.scale)
 
-        z = np.array([start.get(p.name, p.start) for p in self.parameters]) / self.scale
-        inside = np.clip(z, self.lower + 0.1 * STEP, self.upper - 0.1 * STEP)
+        inside = np.clip(self.point(start), self.lower + 0.1 * STEP, self.upper - 0.1 * STEP)
         return least(residual, slope, inside, self.lower, self.upper, rounds, ENOUGH, useful)
 
     def reached(self, z: Float[np.ndarray, " p"]) -> Refit:

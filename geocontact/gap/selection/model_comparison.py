@@ -75,17 +75,26 @@ def _of_one_effect(
     whole = whole - jacobian @ np.linalg.lstsq(jacobian, whole, rcond=None)[0]
     channels = len(problem.floor)
     net = whole.reshape(-1, channels)
-    every = np.concatenate(monomials)
-    columns = np.zeros((len(net), channels, channels, every.shape[1]))
-    for c in range(channels):
-        columns[:, c, c] = net[:, c, None] * every
-    flat = columns.reshape(net.size, -1)
-    left, singular, _ = np.linalg.svd(flat, full_matrices=False)
-    kept = left[:, singular > CLOSE * max(singular[0], 1e-300)]
-    size = BENT * float(np.linalg.norm(whole)) / np.sqrt(max(kept.shape[1], 1))
-    out = (kept * size).reshape(len(net), channels, -1) * problem.floor[:, None]
+    kept = orthonormal(net, np.concatenate(monomials))
+    size = BENT * float(np.linalg.norm(whole)) / np.sqrt(max(kept.shape[-1], 1))
+    out = kept * size * problem.floor[:, None]
     parts = np.split(out, np.cumsum([len(b) for b in monomials])[:-1])
     return [filled(part, rows, len(a)) for part, rows, a in zip(parts, problem.samples, added, strict=True)]
+
+
+def orthonormal(net: Float[np.ndarray, "k c"], monomials: Float[np.ndarray, "k m"]) -> Float[np.ndarray, "k c r"]:
+    """Orthonormal columns that span each channel times the monomials; as many as the largest of all lets be told apart.
+
+    Columns of one channel are 0 in all others, so that each channel has singular values of its own.
+    """
+    found = [np.linalg.svd(own[:, None] * monomials, full_matrices=False)[:2] for own in net.T]
+    largest = max(*(singular[0] for _, singular in found), 1e-300)
+    bases = [left[:, singular > CLOSE * largest] for left, singular in found]
+    ends = np.cumsum([0, *(each.shape[1] for each in bases)])
+    out = np.zeros((*net.shape, ends[-1]))
+    for c, each in enumerate(bases):
+        out[:, c, ends[c] : ends[c + 1]] = each
+    return out
 
 
 def _monomials(problem: Problem) -> list[Float[np.ndarray, "_ m"]]:
@@ -161,10 +170,9 @@ class Ends:
         """What suited a model, if it got that far."""
         return (self.noises[label],) if label in self.noises else ()
 
-    def of(self, one: Candidate, label: str) -> list[Mapping[str, float]]:
+    def of(self, one: Candidate, label: str) -> list[Refit]:
         """Where a model with this candidate last ended; mistakes in some trials are found anew."""
-        known = one.somewhere is None and label in self.fits
-        return [self.fits[label].values] if known else []
+        return [self.fits[label]] if one.somewhere is None and label in self.fits else []
 
     def in_order(self, candidates: Sequence[Candidate]) -> list[Candidate]:
         """The candidates, those first that ended lowest."""
@@ -174,19 +182,28 @@ class Ends:
 def base_contender(problem: Problem) -> Contender:
     """The base model with the noise that suits it."""
     noise = problem.weighed(problem.plain, problem.noise)
-    fitted = refit(problem.system, problem.calibration, problem.fitting(noise, problem.plain), [problem.plain.values])
+    plain = problem.plain
+    whitenings = problem.fitting(noise, plain)
+    fitted = refit(problem.system, problem.calibration, whitenings, [plain.values], known=[plain])
     return finished(problem, (), fitted, noise)
 
 
 def finished(
-    problem: Problem, candidates: tuple[Candidate, ...], model: Refit, before: Noise, *others: Noise
+    problem: Problem,
+    candidates: tuple[Candidate, ...],
+    model: Refit,
+    before: Noise,
+    *others: Noise,
+    left: list[Float[np.ndarray, "_ c"]] | None = None,
 ) -> Contender:
     """A model fitted under somebody else's noise, refitted under its own.
 
     The search for that sets out from the likeliest of those that are known, `others` beside the one it was fitted with.
+    It is the noise of the model's residuals, or of what is `left` of them.
     """
-    noise = problem.weighed(model, before, others)
-    again = refit(model.system, problem.calibration, problem.fitting(noise, model), [model.values], ROUNDS // 2)
+    noise = problem.weighed(model if left is None else replace(model, residuals=left), before, others)
+    whitenings = problem.fitting(noise, model)
+    again = refit(model.system, problem.calibration, whitenings, [model.values], ROUNDS // 2, known=[model])
     everywhere = evaluated(problem, again)
     one = judged(problem, everywhere, noise, discrepancy_basis(problem, candidates, everywhere))
     return Contender(candidates, one)
@@ -198,8 +215,9 @@ def settled_in(problem: Problem, one: Contender) -> Contender:
     Each is fitted in turn, the noise to what the discrepancies of the effects leave, until nothing is gained any more.
     """
     for _ in range(TURNS):
-        model = replace(one.judged.model, residuals=without_discrepancy(one.judged))
-        other = replace(one, judged=finished(problem, one.candidates, model, one.judged.noise).judged)
+        own = one.judged
+        again = finished(problem, one.candidates, own.model, own.noise, left=without_discrepancy(own))
+        other = replace(one, judged=again.judged)
         if other.judged.nats < one.judged.nats + ENOUGH:
             return one if other.judged.nats < one.judged.nats else other
         one = other
@@ -215,28 +233,8 @@ def singles(
     the noise that suits the best of them; the leading ones of both rounds get noise of their own. What does not promise
     to be among those that go on is not fitted to the end.
     """
-    reference = base.judged.model
-    noise = problem.with_lower_noise(base.judged.noise)
-    rounds: list[dict[str, Refit]] = []
     ends = Ends() if ends is None else ends
-    entered = ends.in_order(candidates)
-    for kept in (2 * LEADING**2, 2 * LEADING):
-        whitenings = problem.fitting(noise, reference)
-        found: dict[str, Refit] = {}
-        for one in entered:
-            if rounds:
-                starts: list[Mapping[str, float]] = [rounds[-1][one.label].values]
-            else:
-                starts = ends.of(one, one.label) or _from_base(problem, base, one)
-            useful = to_undercut(found.values(), kept)
-            found[one.label] = refit(one.apply(problem.system), problem.calibration, whitenings, starts, useful=useful)
-        if not rounds:
-            ends.fits.update(found)
-        rounds.append(found)
-        entered = sorted(entered, key=lambda one: found[one.label].cost)[:kept]
-        reference = min(found.values(), key=lambda model: model.cost)
-        noise = problem.weighed(reference, base.judged.noise)
-    first, second = rounds
+    first, second, entered, noise = _two_rounds(problem, base, candidates, ends)
     ahead = sorted(candidates, key=lambda one: first[one.label].cost)[:LEADING]
     chosen = [*((one, second) for one in entered), *((one, first) for one in ahead)]
     done: dict[str, Contender] = {}
@@ -247,6 +245,32 @@ def singles(
             done[one.label] = own
     ends.noises.update({label: one.judged.noise for label, one in done.items()})
     return sorted(done.values(), key=lambda c: -c.judged.nats)
+
+
+def _two_rounds(
+    problem: Problem, base: Contender, candidates: Sequence[Candidate], ends: Ends
+) -> tuple[dict[str, Refit], dict[str, Refit], list[Candidate], Noise]:
+    """Fits of both rounds of `singles` by label, who is ahead after the second, and the noise that suits its best."""
+    reference = base.judged.model
+    noise = problem.with_lower_noise(base.judged.noise)
+    rounds: list[dict[str, Refit]] = []
+    entered = ends.in_order(candidates)
+    for kept in (2 * LEADING**2, 2 * LEADING):
+        whitenings = problem.fitting(noise, reference)
+        found: dict[str, Refit] = {}
+        for one in entered:
+            known = [rounds[-1][one.label]] if rounds else ends.of(one, one.label)
+            starts = [each.values for each in known] or _from_base(problem, base, one)
+            useful, system = to_undercut(found.values(), kept), one.apply(problem.system)
+            found[one.label] = refit(system, problem.calibration, whitenings, starts, useful=useful, known=known)
+        if not rounds:
+            ends.fits.update(found)
+        rounds.append(found)
+        entered = sorted(entered, key=lambda one: found[one.label].cost)[:kept]
+        reference = min(found.values(), key=lambda model: model.cost)
+        noise = problem.weighed(reference, base.judged.noise)
+    first, second = rounds
+    return first, second, entered, noise
 
 
 def _from_base(problem: Problem, base: Contender, one: Candidate) -> list[Mapping[str, float]]:
@@ -274,9 +298,11 @@ def pairs(
         whitenings = problem.fitting(low_noise, model)
         for one in promising(problem, first, whitenings, candidates):
             label = f"{first.label} + {one.label}"
-            starts = ends.of(one, label) or [{**model.values, **start} for start in one.starts]
-            useful = to_undercut([pair for _, pair in best.values()], 2 * LEADING)
-            both = refit(one.apply(model.system), problem.calibration, whitenings, starts, useful=useful)
+            ended = ends.of(one, label)
+            known = [] if first.mistaken else ended  # the trials that have a mistake may be others
+            starts = [each.values for each in ended] or [{**model.values, **start} for start in one.starts]
+            useful, system = to_undercut([pair for _, pair in best.values()], 2 * LEADING), one.apply(model.system)
+            both = refit(system, problem.calibration, whitenings, starts, useful=useful, known=known)
             ends.fits[label] = both
             names = tuple(sorted((*first.names, one.name)))
             if names not in best or both.cost < best[names][1].cost:

@@ -82,6 +82,31 @@ def summed(
 
 
 @kernel
+def along_channel(
+    kept: Float[np.ndarray, " n"],
+    time: Float[np.ndarray, " n"],
+    channel: Int[np.ndarray, " n"],
+    pull: Float[np.ndarray, "n n"],
+    out: Float[np.ndarray, "two c"],
+) -> None:
+    """Adds, to what `out` holds of each channel, `pull` times exp(-lag/τ) and times lag exp(-lag/τ) [s] over its pairs.
+
+    `kept` are the `decays` of τ.
+    """
+    for a in range(time.size):
+        c = channel[a]
+        near, far, correlation = out[0, c] + pull[a, a], out[1, c], 1.0
+        for b in range(a + 1, time.size):
+            if channel[b] != c:
+                break
+            correlation *= kept[b]
+            both = 2.0 * pull[a, b] * correlation
+            near += both
+            far += both * (time[b] - time[a])
+        out[0, c], out[1, c] = near, far
+
+
+@kernel
 def pulled(
     time: Float[np.ndarray, " n"],
     channel: Int[np.ndarray, " n"],
@@ -98,18 +123,7 @@ def pulled(
     white, growing, of_inputs = np.zeros(memory.shape[1]), np.zeros(memory.shape[1]), np.zeros(inputs.shape[0])
     out = np.zeros((2, memory.shape[0], memory.shape[1]))
     for k in range(memory.shape[0]):
-        kept = decays(time, channel, memory[k])
-        for a in range(size):
-            c = channel[a]
-            out[0, k, c] += pull[a, a]
-            correlation = 1.0
-            for b in range(a + 1, size):
-                if channel[b] != c:
-                    break
-                correlation *= kept[b]
-                both = 2.0 * pull[a, b] * correlation
-                out[0, k, c] += both
-                out[1, k, c] += both * (time[b] - time[a])
+        along_channel(decays(time, channel, memory[k]), time, channel, pull, out[:, k])
     felt = np.flatnonzero(heard(inputs))
     for a in range(size):
         white[channel[a]] += pull[a, a]
