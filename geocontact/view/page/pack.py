@@ -91,7 +91,7 @@ def across(faces: Int[np.ndarray, "m 3"], distance: Float[np.ndarray, "t n"], up
 
 
 EFFORT = 6
-"""Of gzip. 9 makes distances of 100 frames 3 % smaller, a page 1 %, and takes five times as long."""
+"""Level of gzip: 9 makes distances of 100 frames 3 % smaller, a page 1 %, and takes five times as long."""
 GRID = 65535
 """Steps of a position along each edge of the bounding box."""
 
