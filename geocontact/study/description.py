@@ -194,9 +194,9 @@ class StudyFile(Document):
     title
         Heading of the page; the file's name by default.
     options
-        Options by name; texts may hold `{name}`, and `{{` for a brace.
+        Options by name; texts may hold `{name}`.
     files
-        Pattern of paths with `{name}`, and `{{` for a brace: a trial for each file that fits.
+        Pattern of paths with `{name}`: a trial for each file that fits.
     table
         File with a row for each trial or subject.
     trials

@@ -28,7 +28,6 @@ WITHOUT = {
     "analyses/frame/source_digest.py": OWN,
     "analyses/frame/table_forms.py": WRITTEN,
     "analyses/gap/benchmark/case.py": "adds to a file that was read",
-    "analyses/prosthesis/design/trial.py": "a table of an open file",
     "app/pages.py": "style and script of the package, and a file that is being dropped",
     "app/samples.py": OWN,
     "app/server.py": "a page that the server wrote, for the browser",
