@@ -15,9 +15,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from geocontact.analyses.frame.file_content import Content, content_of
+from geocontact.analyses.frame.file_content import Content, content_of, state_of_folder
 from geocontact.data.errors import InputError
-from geocontact.io.recordings.tool_folder import DEEPEST, MOST_FILES
 
 PATIENCE = 60.0
 """s that reading may last before the file is said to be too large to be looked at."""
@@ -37,36 +36,8 @@ def known_file(path: Path, folder: bool = False) -> Known | None:
     except (OSError, ValueError):  # a folder that is closed, a name that is too long or holds a zero
         return None
     if folder and stat.S_ISDIR(seen.st_mode):
-        return (path, *_within(path))
+        return (path, *state_of_folder(path))
     return (path, seen.st_mtime_ns, seen.st_size) if stat.S_ISREG(seen.st_mode) else None
-
-
-def _within(folder: Path) -> tuple[int, int]:
-    """A mark of names, times of change and sizes of all that a folder's reader may look at, and how many these are.
-
-    The time of a folder alone says what is new or gone in it, and nothing of what is deeper or written again.
-    """
-    mark, count = sha256(), 0
-    places = [(os.fspath(folder), 0)]
-    while places:
-        place, deep = places.pop()
-        try:
-            with os.scandir(place) as entries:
-                found = sorted((each for each in entries if not each.name.startswith(".")), key=lambda each: each.name)
-        except OSError:  # it is gone, or closed
-            found = []
-        for entry in found:
-            try:
-                seen, inside = entry.stat(), entry.is_dir(follow_symlinks=False)
-            except OSError:  # it is gone, or a link that leads nowhere
-                continue
-            count += 1
-            mark.update(os.fsencode(f"{entry.path}\0{seen.st_mtime_ns}\0{seen.st_size}\0"))
-            if inside and deep < DEEPEST:
-                places.append((entry.path, deep + 1))
-        if count > MOST_FILES:
-            break
-    return int.from_bytes(mark.digest()[:8], "big"), count
 
 
 def page_name(surface: Path, unit: str) -> str:

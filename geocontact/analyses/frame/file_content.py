@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 import warnings
 from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +47,36 @@ class Content:
     wrong: str = ""
     units: list[str] = field(default_factory=list)
     markers: list[str] = field(default_factory=list)
+
+
+def state_of_folder(folder: Path) -> tuple[int, int]:
+    """A mark of names, times of change and sizes of all that a folder's reader may look at, and how many these are.
+
+    The time of a folder alone says what is new or gone in it, and nothing of what is deeper or written again.
+    """
+    from geocontact.io.recordings.tool_folder import DEEPEST, MOST_FILES
+
+    mark, count = sha256(), 0
+    places = [(os.fspath(folder), 0)]
+    while places:
+        place, deep = places.pop()
+        try:
+            with os.scandir(place) as entries:
+                found = sorted((each for each in entries if not each.name.startswith(".")), key=lambda each: each.name)
+        except OSError:  # it is gone, or closed
+            found = []
+        for entry in found:
+            try:
+                seen, inside = entry.stat(), entry.is_dir(follow_symlinks=False)
+            except OSError:  # it is gone, or a link that leads nowhere
+                continue
+            count += 1
+            mark.update(os.fsencode(f"{entry.path}\0{seen.st_mtime_ns}\0{seen.st_size}\0"))
+            if inside and deep < DEEPEST:
+                places.append((entry.path, deep + 1))
+        if count > MOST_FILES:
+            break
+    return int.from_bytes(mark.digest()[:8], "big"), count
 
 
 def content_of(path: Path) -> Content:
