@@ -85,6 +85,7 @@ RESULTS = {
         f"z > {fit.SURE:g}, rms > {fit.LARGER:g} s; rms < {fit.TOO_SMALL:g} s",
         f"z > {fit.SURE:g}, rms > {fit.FAR:g} s",
     ),
+    "of_each": (f"> {fit.SURE:g} SD", ""),
     "of_r2": ("", "R² < 0"),
     "of_bounds": ("on one of them", ""),
     "of_range": ("any", f"{fit.MUCH:.0%} or more"),

@@ -162,10 +162,11 @@ def of_residual(name: str, unit: str, residual: Float[np.ndarray, " n"], noise: 
 
 
 def of_each(model: str, off: Mapping[str, tuple[float, float]], unit: str) -> Iterable[Doubt]:
-    """A doubt for every measured number that a model misses by more than `SURE` of its standard deviations.
+    """A doubt for a number missed.
 
-    Of a few numbers, of which one may be missed where their mean square is still that of the noise: one of three, by
-    three standard deviations, exceeds it by 2.4 standard errors. By chance one number in 370 is missed so far.
+    For every one that a model misses by more than `SURE` of its standard deviations, where of a few the mean square is
+    still that of the noise: one of three that is missed by 3 exceeds it by 2.4 standard errors. By chance one number in
+    370 is missed so far.
 
     Parameters
     ----------
