@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from geocontact.chain.system import FAR, System
-from geocontact.gap.case.refit import ENOUGH, Measured, Refit, at, free
+from geocontact.gap.case.refit import Measured, Refit, at, free
 from geocontact.gap.case.whitening import Share, Whitening
 from geocontact.gap.inputs.denoise import Filters
-from geocontact.gap.levels import DEVIATIONS, TWOFOLD, WORTH_NAMING
+from geocontact.gap.levels import DEVIATIONS, TWOFOLD
 from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.noise_levels import NoiseLevels, NoisePriors
 from geocontact.identify.noise.noise_search import most_likely
@@ -120,7 +120,6 @@ class Problem:
                 self.beliefs,
                 self.beliefs.middle if levels is None else levels,
                 others=[each.levels for each in others],
-                enough=WORTH_NAMING * ENOUGH,  # a tenth of what fits of parameters leave
             )
             whiteners = tuple(layout.whitener(levels) for layout in self.calibration_layouts)
             sd = self._variation(model, whiteners)

@@ -125,7 +125,6 @@ def most_likely(
     start: NoiseLevels,
     rounds: int = LIMIT,
     others: Sequence[NoiseLevels] = (),
-    enough: float = CLOSE,
 ) -> tuple[NoiseLevels, float, float]:
     """Levels that make the residuals most likely, given their prior.
 
@@ -143,8 +142,6 @@ def most_likely(
         The search sets out from the likeliest of these.
     rounds
         Evaluations of the likelihood at the most, `others` aside.
-    enough
-        Gain that is not worth another step [nats].
     """
     surface, farthest = CostSurface.of(layouts, residuals, jitter, beliefs), searched(beliefs)
     known = (surface.at(np.clip(beliefs.point(each), -farthest, farthest)) for each in (start, *others))
@@ -154,7 +151,7 @@ def most_likely(
     for _ in range(rounds - 1):
         low, high = -farthest - here.x, farthest - here.x
         bend = QuadraticModel.within(gradient, curvature, low, high)
-        if bend.promise(bend.step(0.0, low, high)) < enough:
+        if bend.promise(bend.step(0.0, low, high)) < CLOSE:
             break
         step = bend.step(damping, low, high)
         x = np.clip(here.x + step, -farthest, farthest)
@@ -169,7 +166,7 @@ def most_likely(
             curvature = secant(curvature, there.x - here.x, slope - gradient)
         if fall > 0.0:
             here, gradient = there, slope
-            if fall < enough and kept > BROKEN:
+            if fall < CLOSE and kept > BROKEN:
                 break
             if not near or fall >= 1.0:
                 curvature, near = surface.information(here), fall < 1.0
