@@ -194,6 +194,7 @@ def refit(
         found = search.from_start(start, rounds, min(useful, cost - ENOUGH))
         if found.cost < cost:
             best, cost = search.reached(found.x), found.cost
+    search.forget()
     if best is None:
         raise ValueError("a search without a start")
     return best.weighed(whitenings)
@@ -211,6 +212,7 @@ class RefitSearch:
         self.upper = np.array([p.upper for p in self.parameters]) / self.scale
         self.system, self.whitenings = system, whitenings
         count, there = len(measured.trials), {self.point(one.values).tobytes(): one for one in known}
+        self.there = there
 
         @lru_cache(maxsize=2)  # where the search stands, and where it tries to go
         def residuals(point: bytes) -> list[Float[np.ndarray, "_ c"]]:
@@ -225,6 +227,12 @@ class RefitSearch:
             return derivatives(system, measured, self.values(np.frombuffer(point)), residuals(point))
 
         self.residuals, self.slopes = residuals, slopes
+
+    def forget(self) -> None:
+        """Let go of all residuals and slopes: the functions that hold them refer to this search and it to them."""
+        self.there.clear()
+        self.residuals.cache_clear()
+        self.slopes.cache_clear()
 
     def values(self, z: Float[np.ndarray, " p"]) -> dict[str, float]:
         """Parameters by name."""
