@@ -83,7 +83,7 @@ def _of_one_effect(
 
 
 def orthonormal(net: Float[np.ndarray, "k c"], monomials: Float[np.ndarray, "k m"]) -> Float[np.ndarray, "k c r"]:
-    """Orthonormal columns that span each channel times the monomials; as many as the largest of all lets be told apart.
+    """Orthonormal columns that span each channel times the monomials; none that is too small beside the largest.
 
     Columns of one channel are 0 in all others, so that each channel has singular values of its own.
     """
