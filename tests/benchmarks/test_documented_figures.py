@@ -347,6 +347,18 @@ def test_a_frame_of_a_long_run() -> None:
     assert told["asked"]["frames"] >= 300 and len(figures["ms_a_frame"]) >= 3
     assert f"A frame of a long run takes {figures['least_ms_a_frame']:.0f} CPU ms" in text
     assert (f"the aim of {aim:.0f} ms is missed" in text) == (figures["least_ms_a_frame"] > aim)
+    beside = results("long_run_peers")
+    libigl, open3d, warp = (
+        next(row for name, row in beside["figures"]["rows"].items() if name.startswith(peer))
+        for peer in ("libigl", "open3d", "warp")
+    )
+    both = [f"{each['ratio_to_map_and_clip']:.0f}" for each in (libigl, open3d)]
+    assert f"1001 frames of the pair above (`--peers`): libigl and open3d take {both[0]} and {both[1]} times" in text
+    assert beside["asked"]["frames"] == 1001 and warp["met"] and not libigl["met"] and not open3d["met"]
+    assert f"{libigl['ratio']:.1f} and {open3d['ratio']:.1f} times all that `area` finds" in text
+    assert f"bounded warp {warp['ratio']:.1f} times" in text
+    most = max(row["largest_area_difference_percent"] for row in beside["figures"]["rows"].values())
+    assert f"areas agree to {most:.2f} %" in text
 
 
 def test_memory_of_large_meshes() -> None:

@@ -18,14 +18,15 @@ def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
     return np.linspace(time[0], time[-1], steps + 1)
 
 
-def nuttall(count: int) -> Float[np.ndarray, " n"]:
-    """Nuttall's window of two samples or more, symmetric; `scipy.signal` has it, and takes 0.4 s to import.
+NUTTALL = (0.3635819, 0.4891775, 0.1365995, 0.0106411)
+"""Minimum four-term window of Nuttall (1981, IEEE Trans Acoust Speech Signal Process 29:84), side lobes at -98 dB."""
 
-    The minimum one of four terms, side lobes at -98 dB (1981, IEEE Trans Acoust Speech Signal Process 29:84).
-    """
+
+def nuttall(count: int) -> Float[np.ndarray, " n"]:
+    """Nuttall's window of two samples or more, symmetric; `scipy.signal` has it, and takes 0.4 s to import."""
     phase = np.linspace(-np.pi, np.pi, count)
     found = np.zeros(count)
-    for k, part in enumerate((0.3635819, 0.4891775, 0.1365995, 0.0106411)):
+    for k, part in enumerate(NUTTALL):
         found += part * np.cos(k * phase)
     return found
 
