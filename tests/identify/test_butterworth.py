@@ -51,6 +51,17 @@ def test_both_ways_is_that_of_scipy() -> None:
     assert np.array_equal(zero_lag(values, 0.01, 6.0), sosfiltfilt(low_pass, values, axis=0))
 
 
+@pytest.mark.parametrize("kind", [int, np.uint16, bool, np.float32])
+def test_values_of_any_kind_are_filtered_in_double_precision(kind: type) -> None:
+    """Counts of a mat, 0 and 1 of a switch: nothing is cut to whole numbers on the way."""
+    values = np.abs(10.0 * np.random.default_rng(6).standard_normal((300, 2))).astype(kind)
+    low_pass = sections(2, 6.0, 0.01)
+    found, _ = filtered(low_pass, values, np.zeros((1, 2, 2)))
+    assert np.array_equal(found, sosfilt(low_pass, values.astype(float), axis=0))
+    if kind is not np.float32:  # whose mirrored ends are rounded
+        assert np.array_equal(zero_lag(values, 0.01, 6.0), zero_lag(values.astype(float), 0.01, 6.0))
+
+
 def test_a_remembered_force_is_a_filter_of_first_order() -> None:
     design = Design(rate=100.0, noise=0.7, memory=0.25)
     white = np.random.default_rng(5).standard_normal(500)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -28,7 +30,7 @@ def test_chi_square_and_gamma(freedom: int) -> None:
         assert gamma_nats(float(value), freedom) == -stats.gamma.logsf(value, freedom)
 
 
-def test_one_exponential_has_its_own_value_and_far_values_no_limit() -> None:
+def test_one_exponential_has_its_own_value_and_what_is_beyond_is_infinite() -> None:
     """Derived by hand: P(X >= x) = exp(-x) of a sum of one, exp(-x / 2) of a χ² of two."""
     assert gamma_nats(300.0, 1) == pytest.approx(300.0, rel=1e-12)
     assert chi_square_nats(300.0, 2) == pytest.approx(150.0, rel=1e-12)
@@ -40,6 +42,13 @@ def test_poisson() -> None:
     for count, mean in ((1, 0.3), (4, 2.0), (30, 2.5)):
         assert poisson_nats(count, mean) == -stats.poisson.logsf(count - 1, mean)
     assert poisson_nats(1, 0.3) == pytest.approx(-np.log(1.0 - np.exp(-0.3)))
+
+
+def test_what_is_impossible_is_infinite_without_a_word() -> None:
+    """A thousand samples at one level, where two are usual: no warning of a logarithm reaches anybody."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert poisson_nats(1000, 2.0) == f_nats(np.array([1e300]), 2, 24)[0] == np.inf
 
 
 def test_equal_values_share_a_rank() -> None:

@@ -1,4 +1,4 @@
-"""Tails of usual distributions in nats, far beyond where a probability would be 0.
+"""Tails of usual distributions in nats: up to some 745, and infinite beyond, where a probability is 0.
 
 `scipy.stats` has the same numbers; it takes 0.3 s to import, `scipy.special` is loaded already.
 """
@@ -30,8 +30,9 @@ def gamma_nats(value: float, shape: int) -> float:
 
 
 def poisson_nats(count: int, mean: float) -> float:
-    """-ln P(N >= count) of a Poisson distribution."""
-    return -float(np.log(pdtrc(count - 1, mean)))
+    """-ln P(N >= count) of a Poisson distribution, `count` 1 or more."""
+    with np.errstate(divide="ignore"):
+        return -float(np.log(pdtrc(count - 1, mean)))
 
 
 def _nats(lower: Float[np.ndarray, "*n"], upper: Float[np.ndarray, "*n"]) -> Float[np.ndarray, "*n"]:

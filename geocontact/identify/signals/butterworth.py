@@ -52,8 +52,8 @@ def settled(filters: Float[np.ndarray, "s six"]) -> Float[np.ndarray, "s two"]:
 def filtered(
     filters: Float[np.ndarray, "s six"], values: Float[np.ndarray, "t n"], state: Float[np.ndarray, "s two n"]
 ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "s two n"]]:
-    """Values after all sections, and their state afterwards; neither argument is changed."""
-    found, left = np.ascontiguousarray(values).copy(), np.ascontiguousarray(state).copy()
+    """Values after all sections, and their state afterwards, in double precision; neither argument is changed."""
+    found, left = np.array(values, float, order="C"), np.array(state, float, order="C")
     _through(np.ascontiguousarray(filters), found, left)
     return found, left
 
