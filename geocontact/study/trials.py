@@ -77,9 +77,12 @@ def _parts(pattern: str) -> Iterator[tuple[str, str]]:
 
 
 def _with_wildcards(pattern: str) -> str:
-    """The pattern for `Path.glob`, which finds what fits and more; what only it takes for a wildcard is escaped."""
+    """The pattern for `Path.glob`, which finds what fits and more; what only it takes for a wildcard is escaped.
+
+    Wildcards side by side are one: two are refused by it in a name, and alone are folders of any depth.
+    """
     parts = (re.sub(r"[\[?]", r"[\g<0>]", text) + "*" * bool(name) for text, name in _parts(pattern))
-    return "".join(parts)
+    return re.sub(r"\*{2,}", "*", "".join(parts))
 
 
 def found_files(home: Path, pattern: str, study: Path) -> list[tuple[str, dict[str, str]]]:

@@ -90,6 +90,13 @@ def test_braces_of_paths_are_doubled(tmp_path: Path) -> None:
     assert found[0].options["names"] == ["{subject}", "{P1}", "{}", "{ {a}"]
 
 
+@pytest.mark.parametrize("pattern", ["{subject}*.csv", "{subject}_{trial}*", "**_{subject}.csv", "*{subject}.csv"])
+def test_a_wildcard_may_stand_beside_a_name(tmp_path: Path, pattern: str) -> None:
+    (tmp_path / "P_1.csv").touch()
+    found = trials(tmp_path, f'files = "{pattern}"\n[options]\nmotion = "{{file}}"\n')
+    assert [one.options["motion"] for one in found] == ["P_1.csv"]
+
+
 @pytest.mark.parametrize("text", ["a{b}c", "{", "}{", "{{x}}", "{{{", "plain", "{a}{b}", "{ a:b }"])
 def test_a_literal_text_is_what_an_option_gets(tmp_path: Path, text: str) -> None:
     option = json.dumps([literal(text)])
