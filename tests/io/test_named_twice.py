@@ -15,6 +15,7 @@ from geocontact.data.errors import InputError
 from geocontact.io.recordings.device_numbers import read_device_numbers
 from geocontact.io.recordings.spheres import read_contact_intervals, read_contact_parameters, read_spheres
 from geocontact.io.recordings.tool_folder import _session, _subject
+from geocontact.io.text.csv_text import dict_rows
 from geocontact.io.text.file_preflight import read_json
 from geocontact.io.text.results import read_frame
 from geocontact.io.text.side_table import read_side_table
@@ -103,3 +104,20 @@ def test_a_column_that_nobody_asks_for_may_stand_twice(tmp_path: Path) -> None:
     file = tmp_path / "table.csv"
     file.write_text("time [s],px [m],note [-],note [-]\n0,1,2,3\n1,1,2,3\n", encoding="utf-8")
     assert list(read_table(file).column("px")) == [1.0, 1.0]
+
+
+@pytest.mark.parametrize("text", [f"{'x' * 200_000}\n1\n", f'number,value\n1,"{"x," * 100_000}\n'])
+def test_a_cell_that_does_not_end_is_one_line(tmp_path: Path, text: str) -> None:
+    """Names are split to be counted: what `csv` refuses there is said of the file."""
+    file = tmp_path / "numbers.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"numbers\.csv"):
+        read_frame(file, ("number",), "give another one")
+    with pytest.raises(InputError, match=r"numbers\.csv line \d: field larger than"):
+        dict_rows(file, 1_000_000, "a table of numbers")
+
+
+def test_a_remark_behind_the_names_is_none_of_them(tmp_path: Path) -> None:
+    file = tmp_path / "numbers.csv"
+    file.write_text("number,value# a remark,number\n1,2\n", encoding="utf-8")
+    assert list(read_frame(file, (), "give another one")) == ["number", "value"]

@@ -123,9 +123,15 @@ def require_once(names: Sequence[str], file: str | Path, place: str) -> None:
 
 def dict_rows(path: Path, most_bytes: int, kind: str) -> csv.DictReader[str]:
     """Rows of a table of words by the names of its columns, none of which is there twice; InputError as `text_of`."""
-    rows = csv.DictReader(text_of(path, most_bytes, kind).decode("utf-8").splitlines())
-    require_once(rows.fieldnames or (), path, "line 1")
-    return rows
+    lines = text_of(path, most_bytes, kind).decode("utf-8").splitlines()
+    cells = csv.reader(lines)
+    try:
+        require_once(next(cells, []), path, "line 1")
+        for _ in cells:
+            pass
+    except csv.Error as error:
+        raise InputError(path, f"line {cells.line_num}", str(error), "close every quote") from error
+    return csv.DictReader(lines)
 
 
 def _cells(header: str, file: str, line: int) -> list[str]:

@@ -44,12 +44,12 @@ def read_frame(path: Path, wanted: Iterable[str], remedy: str) -> pd.DataFrame:
         wide = next((number for number, line in enumerate(text.split("\n"), 1) if line.count(",") > MOST_CELLS), 0)
         if wide:
             raise InputError(path, f"line {wide}", f"more than {MOST_CELLS} cells", remedy)
-        names = next((line for line in text.split("\n") if line.strip() and not line.startswith("#")), "")
+        names = next((told for line in text.split("\n") if (told := line.partition("#")[0]).strip()), "")
         require_once([name.strip() for name in next(csv.reader([names]), [])], path, "")
         table = pd.read_csv(StringIO(text), comment="#")
     except InputError:
         raise
-    except (OSError, ValueError, pd.errors.ParserError) as error:
+    except (OSError, ValueError, csv.Error, pd.errors.ParserError) as error:
         raise InputError(path, "", f"cannot be read as a table ({error})", remedy) from error
     table.columns = [str(name).strip() for name in table.columns]
     for k, name in enumerate(table.columns):
