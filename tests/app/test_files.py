@@ -197,3 +197,12 @@ def test_a_folder_is_another_one_when_anything_in_it_changes(tmp_path: Path) -> 
     assert not changed()
     (tmp_path / "session" / "again").symlink_to(tmp_path / "session")
     assert changed() and not changed()
+
+
+def test_no_more_of_a_folder_is_looked_at_than_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A window asks every few seconds: a folder of a million files would stop it."""
+    monkeypatch.setattr("geocontact.io.recordings.tool_folder.MOST_FILES", 5)
+    for k in range(20):
+        (tmp_path / f"{k}.trc").touch()
+    known = known_file(tmp_path, folder=True)
+    assert known is not None and known[2] == 6

@@ -65,7 +65,7 @@ def state_of_folder(folder: Path) -> tuple[int, int]:
                 found = sorted((each for each in entries if not each.name.startswith(".")), key=lambda each: each.name)
         except OSError:  # it is gone, or closed
             found = []
-        for entry in found:
+        for entry in found[: MOST_FILES + 1 - count]:
             try:
                 seen, inside = entry.stat(), entry.is_dir(follow_symlinks=False)
             except OSError:  # it is gone, or a link that leads nowhere
