@@ -15,8 +15,8 @@ from geocontact.io.text.side_table import read_side_table
 from geocontact.study.description import RESERVED, StudyFile
 
 NAME = re.compile(r"\{(\w+)\}")
-TOKEN = re.compile(r"\{\{|\}\}|\{(\w+)\}")
-"""A name in braces, or a doubled brace that stands for one."""
+TOKEN = re.compile(r"\{\{(?!\w+\}:)|\}\}|\{(\w+)\}")
+"""A name in braces, or a doubled brace that stands for one; `{{name}:…}` is a file of the step that is named."""
 FILE = "file"
 """Name of a trial's file, where they are found by a pattern."""
 Factors = dict[str, Any]

@@ -99,7 +99,7 @@ def build(
     """The base model; ValueError when a table, column or number that it needs is missing."""
     zones = zones_of(tables)
     needed = tuple(numbers_of(zones))
-    positive = [name for name in needed if name.startswith("k_") or name in POSITIVE]
+    positive = [name for name in needed if name in POSITIVE]
     not_negative = [name for name in needed if name not in positive]
     require_numbers("foot", needed, parameters, constants, positive=positive, not_negative=not_negative)
     place = [np.ascontiguousarray(tables["spheres"][column], float) for column in COLUMNS[:3]]

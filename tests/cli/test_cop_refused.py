@@ -115,7 +115,7 @@ def test_options(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
         ("[zone.heel]\nk = 1e4\nv_th = 0.3", (), "zone.heel.v_th: is not known here"),
         ("k = 1e4", ("--stiffness", "2e4"), "--stiffness: is given a second time by k in"),
         ("n = 1.5", ("--exponent", "1.2"), "--exponent: is given a second time by n in"),
-        ("n = -1.5", (), "must be positive"),
+        ("n = -1.5", (), "law.toml n: -1.5 is not above 0"),
         ("k = 0.5", (), "law.toml k: 0.5 cannot be the stiffness k of a sphere, in N/m^n"),
     ],
 )

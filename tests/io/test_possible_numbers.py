@@ -62,7 +62,7 @@ MEANS: dict[str, dict[str, tuple[float, ...]]] = {
         "parameters k upper": (math.inf,),
     },
     "layout": {r"first_id|(masked|dead) 0 \d|sensors mat 0 \d": NONE},
-    "law": {r"(zone heel )?(b|mu_s|mu_k)|foot (height|pitch)(_sd)?": NONE},
+    "law": {r"zone heel k|(zone heel )?(b|mu_s|mu_k)|foot (height|pitch)(_sd)?": NONE},
     "weights": {r"(medial|lateral) \d": ANY},  # of a regression
 }
 

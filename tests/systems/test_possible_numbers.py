@@ -21,7 +21,7 @@ from tests.systems.examples import elbow, foot, joint, knee, shoulder, sites, sp
 
 TRIED = (-1.0, 0.0, math.nan, math.inf)
 ANY, NOTHING = (-1.0, 0.0), (0.0,)
-"""A place or lever on either side; what may be absent: damping, friction, a mass."""
+"""A place or lever on either side; what may be absent: damping, friction, a mass, springs of a zone."""
 MODELS: dict[str, tuple[Callable[[], System], Callable[..., System], dict[str, pd.DataFrame]]] = {
     "elbow": (elbow, elbow_exoskeleton.build, {}),
     "foot": (foot, prosthetic_foot.build, {"spheres": spheres()}),
@@ -32,7 +32,7 @@ MODELS: dict[str, tuple[Callable[[], System], Callable[..., System], dict[str, p
 }
 MEANS: dict[str, dict[str, tuple[float, ...]]] = {
     "elbow": dict.fromkeys(("x", "y", "z"), ANY),
-    "foot": dict.fromkeys(("mu_s", "mu_k", "b_z1", "b_z2", "b_z3"), NOTHING),
+    "foot": dict.fromkeys(("mu_s", "mu_k", *(f"{kind}_z{k}" for kind in "kb" for k in (1, 2, 3))), NOTHING),
     "shoulder": {**dict.fromkeys(("o_x", "o_y", "l_c"), ANY), **dict.fromkeys(("m", "c", "b_t"), NOTHING)},
     "knee": {},
     "sit_to_stand": {"b": NOTHING, **dict.fromkeys(("rho_pelvis", "rho_thigh", "rho_shank"), ANY)},

@@ -70,10 +70,10 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 
 
 class ZoneLaw(BaseModel):
-    """Stiffness [N/m^n], damping [N s/m] and friction, static and kinetic, of a zone."""
+    """Stiffness [N/m^n], damping [N s/m] and friction, static and kinetic, of a zone; one that bears nothing has 0."""
 
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
-    k: Positive | None = None
+    k: NotNegative | None = None
     b: NotNegative | None = None
     mu_s: NotNegative | None = None
     mu_k: NotNegative | None = None

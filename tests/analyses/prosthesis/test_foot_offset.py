@@ -60,9 +60,9 @@ def test_it_holds_for_its_own_standing_trial_only(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("pitch = 0.57", r"foot.pitch.*less than or equal to 0.35.*\[rad\]"),
-        ("height = 0.4", r"foot.height.*less than or equal to 0.05.*\[m\]"),
-        ("pitch_sd = -0.1", "foot.pitch_sd.*greater than or equal to 0"),
+        ("pitch = 0.57", r"foot.pitch.*not at most 0.35.*\[rad\]"),
+        ("height = 0.4", r"foot.height.*not at most 0.05.*\[m\]"),
+        ("pitch_sd = -0.1", "foot.pitch_sd.*not at least 0"),
         ("roll = 0.1", "foot.roll.*is not known here"),
         ("pitch = nan", "foot.pitch.*finite"),
         ('standing = "abc"', "foot.standing.*SHA-256"),
