@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Shaped
 
 from geocontact.geometry.kernels.compile import kernel
 
@@ -50,7 +50,7 @@ def settled(filters: Float[np.ndarray, "s six"]) -> Float[np.ndarray, "s two"]:
 
 
 def filtered(
-    filters: Float[np.ndarray, "s six"], values: Float[np.ndarray, "t n"], state: Float[np.ndarray, "s two n"]
+    filters: Float[np.ndarray, "s six"], values: Shaped[np.ndarray, "t n"], state: Float[np.ndarray, "s two n"]
 ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "s two n"]]:
     """Values after all sections, and their state afterwards, in double precision; neither argument is changed."""
     found, left = np.array(values, float, order="C"), np.array(state, float, order="C")
