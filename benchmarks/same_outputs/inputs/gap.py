@@ -89,7 +89,7 @@ def elbow(home: Path) -> None:
 
 def joint(home: Path) -> None:
     """A hardening spring whose stiffness follows a setting, and whose torque comes late."""
-    trials, rng = ("t01", "t02", "t03"), np.random.default_rng(12)
+    trials, rng = ("t01", "t02", "t03", "t04"), np.random.default_rng(12)
     for k, name in enumerate(trials):
         time = 0.03 * np.arange(120)
         angle, late = (sweep(time + 0.7 * k - delay, 2.0 + 0.5 * k) - 1.0 for delay in (0.0, 0.06))
@@ -98,13 +98,13 @@ def joint(home: Path) -> None:
     more = ["[noise]\ntorque = 0.1", constants({"angle0": 0.0, "hardening": 0.6})]
     more += [parameter("k", 35.0, 5.0, 500.0, "N m/rad"), parameter("growth", 0.2, -2.0, 2.0, "-")]
     more += [f"[trial.{name}]\nsetting = {0.2 * k}" for k, name in enumerate(trials)]
-    written(home / "case.toml", settings("geocontact.systems.elastic_joint:JOINT", trials, 1, *more))
+    written(home / "case.toml", settings("geocontact.systems.elastic_joint:JOINT", trials, 2, *more))
 
 
 def program(home: Path) -> None:
     """A spring that an awk script simulates; the measured torque has an offset."""
     written(home / "spring.awk", PROGRAM)
-    trials, rng = ("t01", "t02", "t03"), np.random.default_rng(13)
+    trials, rng = ("t01", "t02", "t03", "t04"), np.random.default_rng(13)
     for k, name in enumerate(trials):
         time = 0.05 * np.arange(60)
         angle = 0.3 * np.sin(2.0 * np.pi * (0.5 + 0.2 * k) * time + k) + 0.1 * np.sin(7.0 * time)
@@ -114,14 +114,14 @@ def program(home: Path) -> None:
     words = "awk -F , -v out={out} -f inputs/gap/program/spring.awk {params} {trial}"
     more = (f'simulate = "{words}"', 'inputs = ["angle"]', 'outputs = ["torque"]', "[noise]\ntorque = 0.2")
     free = (("k", 50.0, 10.0, 200.0, "N m/rad"), ("neutral", 0.0, -0.3, 0.3, "rad"))
-    written(home / "case.toml", settings("command", trials, 1, *more, *(parameter(*one) for one in free)))
+    written(home / "case.toml", settings("command", trials, 2, *more, *(parameter(*one) for one in free)))
 
 
 def chain(home: Path, meshes: Path) -> None:
     """Knee angles of the shipped cycle and load cells that swell with it; two meshes in the folder."""
-    trials, rng = ("t01", "t02", "t03"), np.random.default_rng(14)
+    trials, rng = ("t01", "t02", "t03", "t04"), np.random.default_rng(14)
     rows = np.loadtxt((meshes / "gait.csv").read_text("utf-8").splitlines()[1:], delimiter=",")
-    for first, name in zip((0, 2, 1), trials, strict=True):
+    for first, name in zip((0, 2, 1, 3), trials, strict=True):
         some = rows[first::4]
         w, x, y, z = some[:, 4:].T
         adduction = np.arcsin(2.0 * (w * x - y * z))
@@ -140,4 +140,4 @@ def chain(home: Path, meshes: Path) -> None:
     more = ["[noise]", *(f"{cell} = 4.0" for cell in CELLS), constants(numbers)]
     more += [f'[mesh.{body}]\nfile = "{file}"\nunit = "mm"' for body, file in bodies.items()]
     more += [parameter("E_star", 2e6, 1e5, 1e8, "Pa")]
-    written(home / "case.toml", settings("geocontact.systems.knee_chain:CELLS", trials, 1, *more))
+    written(home / "case.toml", settings("geocontact.systems.knee_chain:CELLS", trials, 2, *more))
