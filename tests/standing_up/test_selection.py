@@ -76,7 +76,7 @@ def test_a_trial_s_information_is_the_curvature_of_its_cost() -> None:
     subject, noise, model = Subject(), StandingNoise(), feet_on_ground(Subject())
     _, truth = standing_up(model, subject, intervals=25)
     trial = recorded(model, truth.motions[0], truth.p, 100.0, noise, 34)
-    every, options = [each.name for each in FOOT_PARAMETERS], SolverOptions("radau", 4, 15, 1e-8)
+    every, options = [each.name for each in FOOT_PARAMETERS], SolverOptions("radau", 4, 15, 1e-9)
     phase = phase_a(model, subject, [trial], noise, free=every)
     found = solve(phase.control, options)
     assert found.solved

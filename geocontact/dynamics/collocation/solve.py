@@ -112,8 +112,11 @@ class Stoppable(Protocol):
 Progress = Callable[[int, float, float], None]
 """Iteration, objective, largest violation of a scaled constraint."""
 
+STALLED = "Solved_To_Acceptable_Level", "Search_Direction_Becomes_Too_Small", "Error_In_Step_Computation"
+"""Endings before the tolerance that rounding may be the cause of."""
 ENDINGS = {
     "Solve_Succeeded": "solved",
+    "At_Rounding": "solved as closely as the variables' digits let",
     "Solved_To_Acceptable_Level": "solved, but not to the tolerance",
     "Infeasible_Problem_Detected": "no motion meets the constraints near where the search ended",
     "Maximum_Iterations_Exceeded": "out of iterations",
@@ -121,6 +124,7 @@ ENDINGS = {
     "Maximum_WallTime_Exceeded": "out of time",
     "User_Requested_Stop": "interrupted; the last iterate is saved",
     "Restoration_Failed": "the search found no way back to the constraints",
+    "Error_In_Step_Computation": "no step could be worked out",
     "Search_Direction_Becomes_Too_Small": "the search came to a stop before the tolerance",
     "Invalid_Number_Detected": "a function or derivative is not a number",
 }
@@ -163,7 +167,7 @@ class CollocationResult:
     Parameters
     ----------
     solved
-        Whether the tolerance was met.
+        Whether the tolerance was met, or missed by no more than the last digits of the variables change.
     ending
         In words.
     motions, p
@@ -256,14 +260,16 @@ def _solved(
     with stopped_by_ctrl_c(watch):
         answer = solver(**start, lbx=low, ubx=high, lbg=program.lower, ubg=program.upper)
     status = solver.stats()["return_status"]
-    z = np.array(answer["x"]).ravel()
+    z, of_bounds, of_rows = (np.array(answer[key]).ravel() for key in ("x", "lam_x", "lam_g"))
+    if status in STALLED and program.at_minimum(z, of_bounds, of_rows, (low, high), o.tolerance):
+        status = "At_Rounding"
     if status == "User_Requested_Stop" and watch.last is not None:
         z = watch.last
     cost, rows = (np.array(each).ravel() for each in program.value(z, []))
     p, motions = on.unpacked(z)
     violation = float(np.maximum(program.lower - rows, rows - program.upper).max(initial=0.0))
     return CollocationResult(
-        status == "Solve_Succeeded",
+        status in ("Solve_Succeeded", "At_Rounding"),
         ENDINGS.get(status, status.replace("_", " ").lower()),
         motions,
         p,
@@ -272,7 +278,7 @@ def _solved(
         int(solver.stats()["iter_count"]),
         0.0,
         on.meshes,
-        (np.array(answer["lam_x"]).ravel(), np.array(answer["lam_g"]).ravel()),
+        (of_bounds, of_rows),
         o.tolerance,
     )
 

@@ -18,8 +18,11 @@ def even_grid(time: Float[np.ndarray, " t"]) -> Float[np.ndarray, " n"]:
     return np.linspace(time[0], time[-1], steps + 1)
 
 
-NUTTALL = (0.3635819, 0.4891775, 0.1365995, 0.0106411)
-"""Minimum four-term window of Nuttall (1981, IEEE Trans Acoust Speech Signal Process 29:84), side lobes at -98 dB."""
+NUTTALL = np.array([0.3635819, 0.4891775, 0.1365995, 0.0106411])
+"""Minimum four-term window of Nuttall (1981, IEEE Trans Acoust Speech Signal Process 29:84), side lobes at -98 dB.
+
+Published terms, as those of a filter: no choice of this diagnosis.
+"""
 
 
 def nuttall(count: int) -> Float[np.ndarray, " n"]:

@@ -202,6 +202,31 @@ def test_how_a_search_ends_is_said_in_words() -> None:
     assert not never.solved and "constraints" in never.ending, never.ending
 
 
+def test_a_search_that_only_rounding_keeps_from_its_tolerance_is_solved() -> None:
+    """A last state drawn to 0.3 by 1e9: its digits alone leave 1e-8 of the Lagrangian's slope."""
+    problem = shared_parameter()
+    s = problem.system
+    drawn = replace(problem, system=replace(s, end_cost=1e9 * (s.x - 0.3) ** 2))
+    found = solve(drawn, SolverOptions("radau", 2, 6, 1e-10))
+    assert found.solved and "digits" in found.ending, found.ending
+    held = [replace(one, end=(np.array([0.3]), np.array([0.3]))) for one in problem.trials]
+    ended = replace(problem, system=replace(s, end_cost=SX(0)), trials=tuple(held))
+    ended = solve(ended, SolverOptions("radau", 2, 6), warm=found)
+    np.testing.assert_allclose(found.p, ended.p, rtol=1e-6)
+    on = Transcription(drawn, scheme("radau", 2), found.meshes, scales_from(problem))
+    program, z = sparse_program(on.blocks(), on.size), on.again(found.p, found.motions)
+    beside = z * (1.0 + 1e-12 * np.random.default_rng(0).uniform(-1.0, 1.0, on.size))
+    of_bounds, of_rows = found.multipliers
+    assert program.at_minimum(z, of_bounds, of_rows, on.bounds(), 1e-10)
+    assert not program.at_minimum(beside, of_bounds, of_rows, on.bounds(), 1e-10)
+    assert program.at_minimum(beside, of_bounds, of_rows, on.bounds(), 1.0)
+    low, high = on.bounds()
+    pushed = of_bounds + 1e-3 * (np.arange(on.size) == 0)  # a parameter that is nowhere near its bounds
+    assert not program.at_minimum(z, pushed, of_rows, (low, high), 1e-10)
+    missed = replace(program, lower=program.lower + 1e-6, upper=program.upper + 1e-6)
+    assert not missed.at_minimum(z, of_bounds, of_rows, (low, high), 1e-10)
+
+
 def test_problems_that_cannot_be_meant_are_refused() -> None:
     problem = quickest_move()
     one = problem.trials[0]
