@@ -11,7 +11,7 @@ from tests.house.first_screens import ROOT
 
 MOST = 3_500
 """Words of the longest page."""
-ALL_WORDS = {"theory, reference": 47_470, "how-to": 28_100, "everything": 92_015}
+ALL_WORDS = {"theory, reference": 47_440, "how-to": 28_100, "everything": 91_970}
 """Words of theory and reference together, made pages aside, of the guides, and of all pages; lowered when they become
 shorter. Bars of tables count, as `wc -w` counts them. Raised by what was new: tables of checks, which are made from
 their entries and name what the tests hold of each; sensors beside the force of an elbow; a shoulder's
@@ -70,7 +70,7 @@ LIMITS = {
     "reference/opensim_models.md": 600,
     "reference/paper_004.md": 1180,
     "reference/real_implants.md": 550,
-    "reference/speed.md": 1380,
+    "reference/speed.md": 1360,
     "reference/terms.md": 540,
     "reference/written_files.md": 1800,
     "theory/centre_of_pressure.md": 720,

@@ -142,9 +142,9 @@ def test_true_peaks_are_those_of_the_motions_polynomials(movements: Movements) -
         for at in np.linspace(0.0, 1.0, 41):
             parts = [np.prod([(at - b) / (a - b) for b in points if b != a]) for a in points]
             peak = max(peak, abs(float(torque @ parts)))
-    assert seen.asked.largest[KNEE] == pytest.approx(peak, rel=1e-3) and seen.asked.largest[KNEE] <= peak * (
-        1.0 + 1e-12
-    )
+    assert seen.asked.largest[KNEE] == pytest.approx(peak, rel=1e-3)
+    # its places are among these 41, and polynomials here are added up in another order
+    assert seen.asked.largest[KNEE] <= peak + 2.0 * np.spacing(peak)
     assert peak > 1.02 * seen.asked.sizes[KNEE]
     place = int(np.abs(seen.asked.knee).argmax())
     k, step, sides = NAMES.index("share"), 1e-3, []
