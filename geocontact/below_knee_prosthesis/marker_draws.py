@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.ndimage import gaussian_filter1d
 from scipy.special import ndtri
 
@@ -57,19 +57,19 @@ class MarkerBand:
     drawn: int
     lost: int
 
-    def width(self, quantity: str, on: Float[np.ndarray, " t"] | None = None) -> float:
-        """Half the width, root mean square over the samples where it is known (and `on` is not 0)."""
+    def width(self, quantity: str, on: Bool[np.ndarray, " t"] | None = None) -> float:
+        """Half the width, root mean square over the samples where it is known (and `on` holds)."""
         half = self.half[quantity]
-        known = np.isfinite(half) if on is None else np.isfinite(half) & (on != 0.0)
+        known = np.isfinite(half) if on is None else np.isfinite(half) & on
         return float(np.sqrt(np.mean(half[known] ** 2))) if known.any() else float("nan")
 
     def inside(
-        self, quantity: str, measured: Float[np.ndarray, " t"], on: Float[np.ndarray, " t"] | None = None
+        self, quantity: str, measured: Float[np.ndarray, " t"], on: Bool[np.ndarray, " t"] | None = None
     ) -> float:
-        """Share of the samples (where `on` is not 0) in which a measured curve, at the same times, is in the band."""
+        """Share of the samples (where `on` holds) in which a measured curve, at the same times, is in the band."""
         off = np.abs(measured - self.curves[quantity])
         known = np.isfinite(off) & np.isfinite(self.half[quantity])
-        known &= True if on is None else on != 0.0
+        known &= True if on is None else on
         return float((off <= self.half[quantity])[known].mean()) if known.any() else float("nan")
 
 

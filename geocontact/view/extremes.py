@@ -86,6 +86,6 @@ def _of_stretches(curve: Float[np.ndarray, " t"], stretches: int) -> Int[np.ndar
     return np.concatenate(found)
 
 
-def _known(curve: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+def _known(curve: Float[np.ndarray, "*t"]) -> Float[np.ndarray, "*t"]:
     """NaN for what is endless too."""
     return np.where(np.isfinite(curve), curve, np.nan)
