@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
@@ -18,7 +19,11 @@ from geocontact.analyses.sit_to_stand.predict import predictions
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.predict.predictions import HeldOutTrials, Keep, read
 from geocontact.analyses.sit_to_stand.predict.result import StandingPredictResult, run
-from geocontact.standing_up.phases import TRACKS_C
+from geocontact.dynamics.collocation.blocks import sparse_program
+from geocontact.dynamics.collocation.motion import scheme
+from geocontact.dynamics.collocation.transcription import Transcription, scales_from
+from geocontact.standing_up.exoskeleton import strapped
+from geocontact.standing_up.phases import TRACKS_C, phase_c
 from geocontact.standing_up.prediction import ALL, PredictedTrial
 from geocontact.standing_up.trials import StandingTrial
 from geocontact.standing_up.trivial_trials import mean_trial
@@ -130,10 +135,32 @@ def test_shipped_trial_is_predicted(shipped: StandingPredictResult, tmp_path: Pa
     assert shipped.accepted, shipped.warnings
     errors = shipped.table("errors")
     strap = errors[errors["quantity"] == "strap"].set_index("predictor")["rmsd"]
+    (unplaced,) = [line for line in shipped.sentences if "place along the ground" in line]
+    assert unplaced.startswith("without ground reaction:") and unplaced.endswith("1.5 mm")
     assert strap["all given"] < 10.0 < strap["without torques"]
     assert set(strap.index) == {"all given", "without ground reaction", "without torques", "mean of the calibration"}
     names = {each.name for each in shipped.write(tmp_path / "pred").iterdir()}
     assert {"errors.csv", "certificate.csv", "trial_P1.csv", "solution_P1.sto", "strap.png", "report.html"} <= names
+
+
+def test_without_a_centre_of_pressure_nothing_determines_the_place_along_the_ground() -> None:
+    """All places moved by 1 mm: cost and constraints stay as they are, but for what is given a centre."""
+    given = read(StandingPredictOptions(HELD_OUT, parameters=TRUTH, against=WORN))
+    model = strapped(given.trials.subject, given.known.sites)
+    changes = {}
+    for one in given.predictors:
+        (trial,), trials = given.trials.trials, given.trials
+        phase = phase_c(model, trials.subject, trial, trials.noise, one.p, tracks=one.tracks, weights=trials.weights)
+        on = Transcription(phase.control, scheme("radau", 3), (np.linspace(0.0, 1.0, 7),), scales_from(phase.control))
+        program, z = sparse_program(on.blocks(), on.size), on.guess()
+        p, (motion,) = on.unpacked(z)
+        states = motion.states.copy()
+        states[..., 0] += 1e-3
+        moved = on.again(p, (replace(motion, states=states, end=motion.end + 1e-3 * np.eye(1, len(motion.end))[0]),))
+        first, second = (np.concatenate([np.ravel(each) for each in program.value(at, [])]) for at in (z, moved))
+        changes[one.name] = np.abs(second - first) / np.maximum(np.abs(first), 1.0)
+    assert changes["without ground reaction"].max() < 1e-9
+    assert min(changes[name].max() for name in (ALL, "without torques")) > 1e-3
 
 
 @pytest.mark.slow

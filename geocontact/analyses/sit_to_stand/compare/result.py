@@ -32,6 +32,7 @@ from geocontact.analyses.sit_to_stand.predict.predictions import (
     predicted,
     predicted_meshes,
     read,
+    say_unplaced,
     trials_begun,
 )
 from geocontact.analyses.sit_to_stand.trial_tables import channels, ran_table
@@ -177,6 +178,7 @@ def _report(r: StandingCompareResult) -> None:
         verdict = if_it_fits(f"; {_verdict(each)}")
         say(f"{quantity}, largest RMSD of {counted(len(r.trivial), 'trial')}: {words}{verdict}")
         note(quantity, {str(name): float(value) for name, value in each.items()})
+    say_unplaced(r.given)
 
 
 def nearer_than_both(errors: pd.DataFrame) -> tuple[int, int]:

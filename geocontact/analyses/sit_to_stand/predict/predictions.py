@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from jaxtyping import Float
 
-from geocontact.analyses.frame.collector import add_input, listener, reserve
+from geocontact.analyses.frame.collector import add_input, listener, reserve, say
 from geocontact.analyses.sit_to_stand.predict.options import StandingPredictOptions
 from geocontact.analyses.sit_to_stand.recorded_beside import doubt_straps
 from geocontact.analyses.sit_to_stand.standing_trials import refuse_stances, standing_trials
@@ -20,7 +20,7 @@ from geocontact.dynamics.collocation.solve import SolverOptions, stopped_by_ctrl
 from geocontact.io.recordings.spheres import read_contact_parameters
 from geocontact.standing_up.calibrated_phase import INTERRUPTED
 from geocontact.standing_up.exoskeleton import strapped
-from geocontact.standing_up.phases import TRACKS_C
+from geocontact.standing_up.phases import TRACKS_C, WITHIN
 from geocontact.standing_up.prediction import ALL, GIVEN, PredictedTrial, contact_parameters, predicted_trial
 from geocontact.standing_up.standing_model import StandingModel
 from geocontact.standing_up.strap_sites import SPRINGS, searched
@@ -206,6 +206,18 @@ def complete(predictions: Sequence[PredictedTrial], given: HeldOutTrials) -> boo
     """Whether every trial is predicted by every predictor, and every motion is certified."""
     wanted = len(given.trials.trials) * len(given.predictors)
     return len(predictions) == wanted and all(one.certified for one in predictions)
+
+
+def say_unplaced(given: HeldOutTrials) -> None:
+    """Predictors whose place along the ground follows from nothing that they are given, and how far off it may be.
+
+    The ground's forces do not change with it, and without a centre of pressure only the bounds of the first and the
+    last posture hold it: the search may end anywhere between them.
+    """
+    names = ", ".join(one.name for one in given.predictors if "centre" not in one.tracks)
+    off = f"foot_x and centre may be off by {WITHIN * given.trials.noise.length * 1e3:.2g} mm"
+    if names:
+        say(f"{names}: nothing given determines the place along the ground; {off}")
 
 
 def shown_alike(predictions: Sequence[PredictedTrial]) -> list[PredictedTrial]:

@@ -34,6 +34,7 @@ from geocontact.analyses.sit_to_stand.predict.predictions import (
     predicted,
     predicted_meshes,
     read,
+    say_unplaced,
     shown_alike,
     trials_begun,
 )
@@ -259,6 +260,7 @@ def _report(r: StandingPredictResult) -> None:
     )
     others = [f"{name} {strap[name]:.1f} N and {angles[name]:.2f}°" for name in strap.index if name != ALL]
     say(f"for comparison: {'; '.join(others)}")
+    say_unplaced(r.given)
     seen = [one.trial.judged.certificate for one in r.predictions]
     passed = sum(each is not None and each.converged for each in seen)
     if not contradicted():
