@@ -53,7 +53,7 @@ def measured(spheres: int, rounds: int) -> dict[str, Any]:
 
     from geocontact.dynamics.compiled import Buffered
     from geocontact.dynamics.equations import equations_of_motion
-    from geocontact.dynamics.simulate import rosenbrock_step
+    from geocontact.dynamics.rosenbrock import rosenbrock_step
 
     tree, given = side(spheres)
     equations = equations_of_motion(tree, **given)
