@@ -76,7 +76,15 @@ def step_recipe(e: Equations) -> Recipe:
     size = 2 * e.q.numel() + e.z.numel()
     written = Function("equations", [*e.state, e.a], [e.balance, e.growth]).serialize()
     sizes = (size, 1, e.w.numel(), e.w.numel(), e.w.numel(), e.p.numel())
-    return Recipe(f"{step_source()} {written}", sizes, (size, size, size), lambda: rosenbrock_step(e))
+    return Recipe(f"{step_source()} {written}", sizes, (size, size, size), lambda: without_repeats(rosenbrock_step(e)))
+
+
+def without_repeats(function: Function) -> Function:
+    """The same function, each operation done once: the stages of a step share a seventh of theirs; equal results."""
+    from casadi import SX, Function, cse
+
+    given = [SX.sym(function.name_in(k), function.sparsity_in(k)) for k in range(function.n_in())]
+    return Function(function.name(), given, cse(list(function.call(given))), function.name_in(), function.name_out())
 
 
 @cache

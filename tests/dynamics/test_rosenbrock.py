@@ -11,7 +11,7 @@ from casadi import SX, Function
 from geocontact.dynamics import machine_code, rosenbrock
 from geocontact.dynamics.equations import Equations, LawState, equations_of_motion
 from geocontact.dynamics.recorded_inputs import linear_inputs
-from geocontact.dynamics.rosenbrock import rosenbrock_step, step_recipe
+from geocontact.dynamics.rosenbrock import rosenbrock_step, step_recipe, without_repeats
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.tree import tree_of
 from tests.dynamics.models import pendulum
@@ -70,3 +70,16 @@ def test_sizes_are_those_of_the_step() -> None:
     recipe, step = step_recipe(sprung(50.0)), rosenbrock_step(sprung(50.0))
     assert recipe.inputs == tuple(step.nnz_in(k) for k in range(step.n_in()))
     assert recipe.outputs == tuple(step.nnz_out(k) for k in range(step.n_out()))
+
+
+def test_repeated_operations_are_done_once() -> None:
+    """Results are equal: what is done once is what would be done again."""
+    step = rosenbrock_step(sprung(50.0))
+    fewer = without_repeats(step)
+    assert fewer.n_instructions() < 0.95 * step.n_instructions()
+    assert (fewer.name_in(), fewer.name_out()) == (step.name_in(), step.name_out())
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        given = [rng.uniform(0.1, 1.0, step.size1_in(k)) for k in range(step.n_in())]
+        for one, other in zip(step(*given), fewer(*given), strict=True):
+            np.testing.assert_array_equal(np.array(one), np.array(other))
