@@ -119,7 +119,7 @@ class Recipe:
     make: Callable[[], Function]
 
     def machine_code(self) -> MachineCode | None:
-        """As `machine_code` of the function, found again by what it is made of."""
+        """The function's machine code, kept and found again by what the function is made of; else as `machine_code`."""
 
         def made(machine: Any) -> bytes | None:
             function = self.make()
