@@ -34,7 +34,7 @@ from geocontact.below_knee_prosthesis.both_sides.walk import (
 )
 from geocontact.below_knee_prosthesis.keel.vsf import fulcrum_of, vsf_foot
 from geocontact.dynamics.recorded_inputs import recorded_inputs
-from geocontact.dynamics.simulate import rosenbrock_step
+from geocontact.dynamics.rosenbrock import rosenbrock_step
 from meshes.amputee import true_amputee
 from meshes.amputee_walk import amputee_walk, amputee_walk_on_spheres
 from meshes.gait_persons import PARTICIPANTS, STANCE

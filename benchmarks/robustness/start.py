@@ -38,10 +38,12 @@ HEAVY = (
 )
 ALONE = ("numpy", "pandas", "numba", "scipy.spatial", "scipy.special", "scipy.optimize", "scipy.stats", "scipy.signal")
 """Measured each by itself, with what it imports: numpy among it."""
+SELDOM = "import atexit, gc; gc.set_threshold(100_000); atexit.register(gc.freeze); "
+"""What `collect_seldom` of the command line does, for packages by themselves."""
 PROGRAM = """
-import gc, sys
-from geocontact.cli.main import COLLECT
-gc.set_threshold(COLLECT)
+import sys
+from geocontact.cli.main import collect_seldom
+collect_seldom()
 from geocontact.analyses.catalogue import ENTRIES
 next(each for each in ENTRIES if each.command == sys.argv[1]).load_job()
 print(*sorted({each for each in sys.argv[2:] if each in sys.modules}))
@@ -68,7 +70,7 @@ def started(command: str, rounds: int, empty: float) -> dict[str, Any]:
     for _ in range(rounds):
         runs.append(cpu_seconds(PROGRAM, (command, *HEAVY)))
         heavy = runs[0][1]
-        alone.append(cpu_seconds(f"import gc; gc.set_threshold(100_000); import {', '.join(['numpy', *heavy])}")[0])
+        alone.append(cpu_seconds(f"{SELDOM}import {', '.join(['numpy', *heavy])}")[0])
     return {
         "cpu_s": round(min(took for took, _ in runs) - empty, 2),
         "floor_s": round(min(alone) - empty, 2),
@@ -91,8 +93,10 @@ def main() -> None:
         print(f"| `{name}` | {one['cpu_s']:.2f} | {one['floor_s']:.2f} | {' '.join(one['heavy'])} |", flush=True)
     quick = sum(each["cpu_s"] <= AIM for each in found.values())
     print(f"{quick} of {len(found)} within {AIM} CPU s")
+    programs = {name: f"{SELDOM}import {name}" for name in ALONE}
     alone = {
-        name: round(min(cpu_seconds(f"import {name}")[0] for _ in range(asked.rounds)) - empty, 2) for name in ALONE
+        name: round(min(cpu_seconds(each)[0] for _ in range(asked.rounds)) - empty, 2)
+        for name, each in programs.items()
     }
     print("alone: " + ", ".join(f"{name} {took:.2f}" for name, took in alone.items()))
     figures = {"aim_s": AIM, "alone_s": alone, "commands": found}

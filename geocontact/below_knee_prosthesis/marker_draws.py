@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.ndimage import gaussian_filter1d
 from scipy.special import ndtri
 
 from geocontact.below_knee_prosthesis.leg_tree import GRAVITY
@@ -29,6 +28,8 @@ UNITS = {"vertical": "BW", "fore_aft": "BW", "medio_lateral": "BW", "cop_ground"
 
 def with_errors(seen: MarkerTrajectories, sd: float, rng: np.random.Generator) -> MarkerTrajectories:
     """With an error of a standard deviation [m] on every coordinate of every marker."""
+    from scipy.ndimage import gaussian_filter1d
+
     shape = seen.positions.shape
     step = float(np.median(np.diff(seen.time))) if len(seen.time) > 1 else SLOW
     slow = gaussian_filter1d(rng.standard_normal(shape), SLOW / step, axis=0, mode="wrap")

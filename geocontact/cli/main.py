@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import errno
 import gc
 import os
@@ -75,12 +76,21 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0 done, 2 for a mistake in the input, 1 for any other failure."""
     tokens = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in tokens
-    gc.set_threshold(COLLECT)
+    collect_seldom()
     signal.signal(signal.SIGTERM, _terminated)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file name that the terminal cannot show costs no result
             stream.reconfigure(errors="backslashreplace")
     sys.exit(run([token for token in tokens if token != "--debug"], debug))
+
+
+def collect_seldom() -> None:
+    """Look for circles of objects after `COLLECT` new ones only, and not at all at the end of the process.
+
+    There Python would take half a second after a long call to free one by one what the system frees at once.
+    """
+    gc.set_threshold(COLLECT)
+    atexit.register(gc.freeze)
 
 
 def run(tokens: Sequence[str], debug: bool = False) -> int:

@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from geocontact.dynamics.code_cache import keep, kept, private_place
-from geocontact.dynamics.machine_code import machine_code, refuse_sparse
+from geocontact.dynamics.machine_code import Recipe, machine_code, refuse_sparse
 
 if TYPE_CHECKING:
     from casadi import Function
@@ -29,21 +29,29 @@ class Buffered:
     Parameters
     ----------
     function
-        Of columns and matrices; these are passed and given column by column.
+        Of columns and matrices; these are passed and given column by column. A recipe is followed only where there is
+        no machine code.
     compiled
         Whether to run machine code where there is some, with results equal but for signs of zero: see `code`.
     """
 
-    def __init__(self, function: Function, *, compiled: bool = False) -> None:
-        refuse_sparse(function)
-        self.function = function
-        self._inputs = [np.zeros(function.nnz_in(k)) for k in range(function.n_in())]
-        self._outputs = [np.zeros(function.nnz_out(k)) for k in range(function.n_out())]
-        self.code = machine_code(function) if compiled else None
-        self._run = self._by_casadi() if self.code is None else self._by_processor(self.code.run, self.code.work)
+    def __init__(self, function: Function | Recipe, *, compiled: bool = False) -> None:
+        if isinstance(function, Recipe):
+            inputs, outputs = function.inputs, function.outputs
+            self.code = function.machine_code() if compiled else None
+        else:
+            refuse_sparse(function)
+            inputs = tuple(function.nnz_in(k) for k in range(function.n_in()))
+            outputs = tuple(function.nnz_out(k) for k in range(function.n_out()))
+            self.code = machine_code(function) if compiled else None
+        self._inputs, self._outputs = ([np.zeros(size) for size in sizes] for sizes in (inputs, outputs))
+        if self.code is None:
+            self._run = self._by_casadi(function.make() if isinstance(function, Recipe) else function)
+        else:
+            self._run = self._by_processor(self.code.run, self.code.work)
 
-    def _by_casadi(self) -> Callable[[], object]:
-        self._buffer, run = self.function.buffer()
+    def _by_casadi(self, function: Function) -> Callable[[], object]:
+        self._buffer, run = function.buffer()
         for k, each in enumerate(self._inputs):
             self._buffer.set_arg(k, memoryview(each))  # type: ignore[call-arg, arg-type]  # its stubs tell another form
         for k, each in enumerate(self._outputs):

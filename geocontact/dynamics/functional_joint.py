@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial.transform import RigidTransform
 
-from geocontact.geometry.register.landmarks import fit_landmarks
+from geocontact.geometry.register.landmarks import fitted_pose, fix_a_pose
 
 FEWEST = 3
 """Markers that fix a pose."""
@@ -58,12 +58,17 @@ def segment_poses(
     known = seen.sum(axis=1) >= FEWEST
     if not known.any():
         raise ValueError(f"no frame shows {FEWEST} markers of the segment")
-    matrices, off = [], np.full(len(places), np.nan)
+    matrices, off, checked = [], np.full(len(places), np.nan), set[bytes]()
     for frame in np.flatnonzero(known):
         there = seen[frame]
-        found = fit_landmarks(template[there], places[frame, there], tolerance=np.inf)
-        matrices.append(found.pose.as_matrix())
-        off[frame] = np.sqrt(np.mean(np.sum((found.pose.apply(template[there]) - places[frame, there]) ** 2, axis=1)))
+        own, at = template[there], places[frame, there]
+        if there.tobytes() not in checked:
+            fix_a_pose(own, "moving")
+            checked.add(there.tobytes())
+        fix_a_pose(at, "fixed")
+        pose = fitted_pose(own, at, np.ones(len(own)))
+        matrices.append(pose.as_matrix())
+        off[frame] = np.sqrt(np.mean(np.sum((pose.apply(own) - at) ** 2, axis=1)))
     return RigidTransform.from_matrix(np.array(matrices)), known, off
 
 

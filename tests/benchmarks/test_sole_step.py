@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from benchmarks.contact.sole_step import side
 from geocontact.dynamics.equations import equations_of_motion
-from geocontact.dynamics.simulate import rosenbrock_step
+from geocontact.dynamics.rosenbrock import rosenbrock_step
 
 
 def test_a_step_of_24_spheres_takes_so_many_operations() -> None:

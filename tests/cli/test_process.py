@@ -61,6 +61,19 @@ def test_refusal_with_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> No
     assert result.stderr.count(b"\n") == 1 and b"no such file" in result.stderr
 
 
+def test_a_process_ends_without_a_search_for_circles() -> None:
+    """What is registered first is called last: by then Python has been told to leave all objects to the system."""
+    program = """
+import atexit, gc
+atexit.register(lambda: print(gc.get_freeze_count() > 10_000, len(gc.get_objects()) < 10_000))
+from geocontact.cli.main import main
+main(["--version"])
+"""
+    result = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert result.stdout.split()[-2:] == ["True", "True"]
+
+
 def ball_on_plate(folder: Path) -> list[str]:
     """A quick call that works."""
     motion = poses(folder, (0, 20, 0))

@@ -44,6 +44,38 @@ def cosine() -> float:
     return float(run(np.array([1.0]))[0][0])
 
 
+def followed(factor: float, made_of: str, times: list[float]) -> Buffered:
+    """`factor` times the sum of two numbers, by a recipe that notes when it is followed."""
+
+    def make() -> Function:
+        times.append(factor)
+        pair = SX.sym("pair", 2)
+        return Function("f", [pair], [factor * casadi.sum1(pair), casadi.vertcat(pair, factor)])
+
+    return Buffered(machine_code.Recipe(made_of, (2,), (1, 3), make), compiled=True)
+
+
+def test_a_recipe_is_followed_only_where_its_code_is_not_kept(tmp_path: Path) -> None:
+    times: list[float] = []
+    for factor, made_of, known in ((3.0, "three", 1), (3.0, "three", 1), (4.0, "four", 2), (3.0, "three", 2)):
+        _forget()
+        run = followed(factor, made_of, times)
+        one, three = run(np.array([1.0, 2.0]))
+        assert run.code is not None and run.code.work > 0
+        assert one.tolist() == [3.0 * factor] and three.tolist() == [1.0, 2.0, factor]
+        assert len(times) == known
+    for file in (tmp_path / "cache").iterdir():
+        file.write_bytes(file.read_bytes()[:-9])
+    _forget()
+    assert followed(3.0, "three", times)(np.ones(2))[0] == [6.0] and len(times) == 3, "what is damaged is made anew"
+
+
+def test_a_recipe_without_machine_code_is_left_to_casadi(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine_code, "_target", lambda: None)
+    run = followed(5.0, "five", [])
+    assert run.code is None and run(np.ones(2))[0] == [10.0]
+
+
 @posix
 def test_folder_and_files_are_the_users_alone(tmp_path: Path) -> None:
     before = os.umask(0)

@@ -91,6 +91,9 @@ NO_KERNEL = (
     "motion.inverse_kinematics.result",
     "motion.scale.result",
     "motion.virtual_markers.result",
+    "prosthesis.compare.result",
+    "prosthesis.simulate.result",
+    "prosthesis.walk.result",
     "shape.result",
 )
 """Modules of jobs that may end without a surface, a filter or a law that numba compiles."""
@@ -107,7 +110,7 @@ def test_a_job_that_may_call_no_kernel_starts_without_numba(module: str) -> None
     assert "numba" not in loaded_by(f"import geocontact.analyses.{module}")
 
 
-SELDOM = SLOW - {"scipy.interpolate", "scipy.optimize"}
+SELDOM = {*(SLOW - {"scipy.interpolate", "scipy.optimize"}), "scipy.ndimage", "urllib.request"}
 """What takes longest and no job calls at once: `scipy.signal` brings `scipy.stats` along, 0.4 s together."""
 EVERY_JOB = f"""
 import sys
@@ -122,7 +125,7 @@ for entry in ENTRIES:
 """All jobs but the one that makes cases, one after the other: the first that loads something slow is named."""
 
 
-def test_no_job_starts_with_statistics_or_signals() -> None:
+def test_no_job_starts_with_statistics_signals_or_the_network() -> None:
     loaded_by(EVERY_JOB)
 
 

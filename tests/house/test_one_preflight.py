@@ -34,6 +34,7 @@ WITHOUT = {
     "data/stub_names.py": OWN,
     "dynamics/code_cache.py": OWN,
     "dynamics/compiled.py": WRITTEN,
+    "dynamics/rosenbrock.py": OWN,
     "geometry/kernels/compile.py": OWN,
     "io/opensim/muscle_paths.py": WRITTEN,
     "io/recordings/pose_draws.py": "arrays of an open file",

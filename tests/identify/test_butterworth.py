@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from scipy.signal import butter, lfilter, sosfilt, sosfilt_zi, sosfiltfilt
 
 from geocontact.axis_misalignment.synthetic import Design, _remembered
+from geocontact.identify.signals import butterworth
 from geocontact.identify.signals.butterworth import filtered, sections, settled
+from geocontact.identify.signals.butterworth_kernel import pass_through
 from geocontact.identify.signals.filters import TWICE, zero_lag
 
 CORNERS = [(0.01, 0.001), (0.5, 0.02), (6.0, 0.01), (17.3, 1 / 120), (40.0, 0.01), (499.0, 0.001)]
@@ -42,6 +47,38 @@ def test_values_and_state_are_those_of_scipy(order: int) -> None:
     assert np.array_equal(left, expected_left)
     assert np.array_equal(values, kept[0])
     assert np.array_equal(state, kept[1])
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_row_by_row_has_the_kernels_numbers(order: int) -> None:
+    """Also where a sample is missing or infinite, or there is none: neither says so."""
+    rng = np.random.default_rng(8)
+    low_pass = sections(order, 6.0, 0.01)
+    for values in (
+        rng.standard_normal((400, 5)),
+        rng.standard_normal((0, 2)),
+        np.array([[1.0, np.inf], [np.nan, 2.0]]),
+    ):
+        state = rng.standard_normal((len(low_pass), 2, values.shape[1]))
+        slow, slow_left, fast, left = values.copy(), state.copy(), values.copy(), state.copy()
+        butterworth._row_by_row(low_pass, slow, slow_left)
+        pass_through(low_pass, fast, left)
+        assert np.array_equal(slow, fast, equal_nan=True)
+        assert np.array_equal(slow_left, left, equal_nan=True)
+
+
+def test_short_recordings_are_filtered_without_numba() -> None:
+    """A process of its own: others have loaded it; long ones load it."""
+    program = """
+import sys
+import numpy as np
+from geocontact.identify.signals.filters import zero_lag
+for rows in (1000, 6000):
+    zero_lag(np.ones((rows, 2)), 0.01, 6.0)
+    print("numba" in sys.modules)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "True"]
 
 
 def test_both_ways_is_that_of_scipy() -> None:

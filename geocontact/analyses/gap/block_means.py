@@ -23,7 +23,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.ndimage import median_filter
 
 from geocontact.data.gap_case import GapCase
 from geocontact.data.trial import Trial
@@ -93,6 +92,8 @@ class Evenness:
     @classmethod
     def of(cls, time: Float[np.ndarray, " t"], values: Float[np.ndarray, " t"], step: float, size: int) -> Evenness:
         """From the samples of a channel; `size` is even."""
+        from scipy.ndimage import median_filter
+
         number, blocks = numbers(time, step), Blocks.of(time, step, size)
         whole = np.diff(blocks.begin, append=blocks.end) == size
         rows = blocks.begin[whole][:, None] + np.arange(size)
@@ -234,6 +235,8 @@ def _recorder_shows(trials: Sequence[Trial], name: str) -> bool:
 
 def _line(trials: Sequence[Trial], name: str, size: int) -> bool:
     """Whether a narrow line stands out of an output's spectrum above what means of blocks show, in some trial."""
+    from scipy.ndimage import median_filter
+
     for trial in trials:
         there = np.isfinite(trial.column(name))
         if there.sum() < FEWEST:

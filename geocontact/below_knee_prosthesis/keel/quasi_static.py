@@ -19,8 +19,6 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from geocontact.below_knee_prosthesis.keel import newton_kernel
-from geocontact.below_knee_prosthesis.keel.balance_kernel import balance
 from geocontact.below_knee_prosthesis.keel.keel import Keel
 from geocontact.below_knee_prosthesis.keel.on_tree import (
     InKeel,
@@ -201,6 +199,8 @@ class QuasiStaticKeel:
         gravity: tuple[float, float, float],
         start: Float[np.ndarray, " m"] | None,
     ) -> KeelMotion:
+        from geocontact.below_knee_prosthesis.keel.newton_kernel import solve_frames  # late: numba
+
         count = len(self.sole.spheres)
         seen = seen_by_keel(poses, under, gravity, rate, count)
         frames = len(seen.planes)
@@ -208,7 +208,7 @@ class QuasiStaticKeel:
         joints = self.keel.hinges
         angles, left = np.empty((frames, joints)), np.empty(frames)
         outputs, steps = np.empty((frames, count, OUTPUTS)), np.zeros(frames, np.int64)
-        found = newton_kernel.solve_frames(
+        found = solve_frames(
             np.zeros(joints) if start is None else np.asarray(start, float),
             per_time,
             *self.arrays(static=rate is None),
@@ -238,6 +238,8 @@ class QuasiStaticKeel:
 
         Friction with both coefficients of the law.
         """
+        from geocontact.below_knee_prosthesis.keel.balance_kernel import balance  # late: numba
+
         count, joints = len(self.sole.spheres), angles.shape[1]
         seen = seen_by_keel(poses, plane_under(ground, poses), DOWNWARDS, rate, count)
         outputs = np.empty((len(angles), count, OUTPUTS))

@@ -26,7 +26,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.ndimage import uniform_filter1d
 
 from geocontact.chain.differentiated_inputs import DEGREE
 from geocontact.chain.system import FAR, System
@@ -59,6 +58,8 @@ ORDER = 4  # of differences that show noise beside a movement
 
 def signal_size(outputs: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
     """Per trial, the magnitude of each channel's mean over `ASIDE` samples to either side; 0 where nothing is known."""
+    from scipy.ndimage import uniform_filter1d
+
     found = []
     for each in outputs:
         there = np.isfinite(each)

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 
 import numpy as np
 from jaxtyping import Bool, Float
-from scipy.ndimage import label
 
 from geocontact.chain.differentiated_inputs import recorded
 from geocontact.data.gap_cells import Region
@@ -32,6 +31,8 @@ def regions(problem: Problem, base: Judged) -> tuple[Region, ...]:
 
 def touching(cells: Bool[np.ndarray, " k"]) -> Iterator[Bool[np.ndarray, " k"]]:
     """Cells of a channel that touch, part by part."""
+    from scipy.ndimage import label
+
     numbers, count = label(cells.reshape(SHAPE))
     for k in range(1, count + 1):
         yield (numbers == k).ravel()

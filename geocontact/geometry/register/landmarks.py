@@ -47,12 +47,9 @@ def fit_landmarks(
         raise ValueError(f"{_first_not_finite(moving, fixed, names)} is not finite; leave it out on both sides")
     if not np.isfinite(weight).all() or (weight < 0.0).any():
         raise ValueError("weights of landmarks must be finite and not negative")
-    _fix_a_pose(moving[weight > 0.0], "moving")
-    _fix_a_pose(fixed[weight > 0.0], "fixed")
-    share = weight / weight.sum()
-    from_A, from_B = share @ moving, share @ fixed
-    R_BA, _ = Rotation.align_vectors(fixed - from_B, moving - from_A, weights=share)
-    pose = RigidTransform.from_components(from_B - R_BA.apply(from_A), R_BA)
+    fix_a_pose(moving[weight > 0.0], "moving")
+    fix_a_pose(fixed[weight > 0.0], "fixed")
+    pose = fitted_pose(moving, fixed, weight)
     points = pose.apply(moving)
     residual = np.linalg.norm(points - fixed, axis=1)
     return Registration(
@@ -60,12 +57,22 @@ def fit_landmarks(
     )
 
 
+def fitted_pose(
+    moving: Float[np.ndarray, "n 3"], fixed: Float[np.ndarray, "n 3"], weight: Float[np.ndarray, " n"]
+) -> RigidTransform:
+    """The pose of `fit_landmarks` without its checks and its report, for many frames of the same markers."""
+    share = weight / weight.sum()
+    from_A, from_B = share @ moving, share @ fixed
+    R_BA, _ = Rotation.align_vectors(fixed - from_B, moving - from_A, weights=share)
+    return RigidTransform.from_components(from_B - R_BA.apply(from_A), R_BA)
+
+
 def _first_not_finite(moving: Float[np.ndarray, "n 3"], fixed: Float[np.ndarray, "n 3"], names: tuple[str, ...]) -> str:
     return names[int(np.flatnonzero(~np.isfinite(moving + fixed).all(axis=1))[0])]
 
 
-def _fix_a_pose(points: Float[np.ndarray, "n 3"], side: str) -> None:
-    """Refuse landmarks that leave a pose open."""
+def fix_a_pose(points: Float[np.ndarray, "n 3"], side: str) -> None:
+    """ValueError for landmarks that leave a pose open: fewer than three, or all in one line."""
     if len(points) < 3:
         raise ValueError(f"a pose needs 3 landmarks at least, not {len(points)}")
     along, across = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[:2]

@@ -1,17 +1,19 @@
 """Butterworth's low-pass of order two and three as `scipy.signal` has it, to the last digit.
 
-`scipy.signal` takes 0.4 s to import, longer than many a recording takes to be filtered.
+`scipy.signal` takes 0.4 s to import, and numba with one kernel 0.3: longer than many a recording takes to be filtered.
 """
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 from jaxtyping import Float, Shaped
 
-from geocontact.geometry.kernels.compile import kernel
-
 DOUBLE, SINGLE = np.array([1.0, 2.0, 1.0]), np.array([1.0, 1.0, 0.0])
 """Numerators of sections: two zeros at Nyquist's frequency, or one there and one at the origin."""
+FEW = 5000
+"""Rows that take less time one after the other, 6 us each, than numba takes to be imported."""
 
 
 def sections(order: int, corner: float, step: float) -> Float[np.ndarray, "s six"]:
@@ -54,21 +56,28 @@ def filtered(
 ) -> tuple[Float[np.ndarray, "t n"], Float[np.ndarray, "s two n"]]:
     """Values after all sections, and their state afterwards, in double precision; neither argument is changed."""
     found, left = np.array(values, float, order="C"), np.array(state, float, order="C")
-    _through(np.ascontiguousarray(filters), found, left)
+    if len(filters) * len(found) <= FEW and "numba" not in sys.modules:
+        _row_by_row(filters, found, left)
+    else:
+        from geocontact.identify.signals.butterworth_kernel import pass_through  # late: numba
+
+        pass_through(np.ascontiguousarray(filters), found, left)
     return found, left
 
 
-@kernel
-def _through(
+def _row_by_row(
     filters: Float[np.ndarray, "s six"], values: Float[np.ndarray, "t n"], state: Float[np.ndarray, "s two n"]
 ) -> None:
-    """Each section in direct form II transposed, in place."""
-    for t in range(values.shape[0]):
-        for s in range(filters.shape[0]):
-            b0, b1, b2, a1, a2 = filters[s, 0], filters[s, 1], filters[s, 2], filters[s, 4], filters[s, 5]
-            for n in range(values.shape[1]):
-                x = values[t, n]
-                y = b0 * x + state[s, 0, n]
-                state[s, 0, n] = b1 * x - a1 * y + state[s, 1, n]
-                state[s, 1, n] = b2 * x - a2 * y
-                values[t, n] = y
+    """What `butterworth_kernel.pass_through` does, in the same order of operations: equal to the last digit."""
+    y, product = np.empty((2, values.shape[1]))
+    with np.errstate(all="ignore"):  # as silent as the kernel
+        for (b0, b1, b2, _, a1, a2), (first, second) in zip(filters, state, strict=True):
+            for x in values:
+                np.multiply(x, b0, out=y)
+                y += first
+                np.multiply(x, b1, out=first)
+                first -= np.multiply(y, a1, out=product)
+                first += second
+                np.multiply(x, b2, out=second)
+                second -= np.multiply(y, a2, out=product)
+                x[:] = y

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from geocontact.data.frame_blocks import blocks, release, room
+from geocontact.identify.signals.butterworth import filtered, sections, settled
 from geocontact.identify.signals.cycles import Span
 
 UNEVEN = 0.05
@@ -152,8 +153,6 @@ def _both_ways(
     The state of the filter at the end of a part is that at the beginning of the next, so that parts have no borders:
     the values are those of the whole, to the last digit.
     """
-    from geocontact.identify.signals.butterworth import filtered, sections, settled  # late: numba
-
     low_pass = sections(order, corner, step)
     beyond = 3 * _taps(low_pass) if mirrored is None else mirrored
     if len(values) <= beyond:

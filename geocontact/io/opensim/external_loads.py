@@ -10,9 +10,9 @@ from os import PathLike, fspath
 from pathlib import Path
 from posixpath import basename
 from xml.etree.ElementTree import Element
-from xml.sax.saxutils import escape, quoteattr
 
 from geocontact.data.errors import InputError, InputWarning
+from geocontact.data.xml_text import escape, quoteattr
 from geocontact.io.opensim.osim_xml import is_true, label, read_document, text_of
 from geocontact.io.text.file_preflight import open_file
 

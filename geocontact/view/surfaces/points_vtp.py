@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from geocontact.data.xml_text import quoteattr
 from geocontact.view.surfaces.vtp_series import HEAD, encoded_vtp, require_pyvista
 
 DIGITS = 7

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial.transform import RigidTransform
 
 from geocontact.data.errors import InputError, memory_is_short
+from geocontact.data.xml_text import quoteattr
 from geocontact.view.surfaces.child import INSTALL
 from geocontact.view.surfaces.scene import ContactSeries
 
