@@ -235,8 +235,7 @@ def solve(
         if all(len(a) == len(b) for a, b in zip(on, finer, strict=True)):
             break
         warm, on = found, finer
-    seconds = time.process_time() - began
-    return CollocationResult(**{**vars(found), "iterations": iterations, "seconds": seconds})
+    return CollocationResult(**{**vars(found), "iterations": iterations, "seconds": time.process_time() - began})
 
 
 def _solved(

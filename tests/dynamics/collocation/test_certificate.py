@@ -11,6 +11,7 @@ from casadi import SX, Function
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from geocontact.dynamics.collocation import certificate as certifying
 from geocontact.dynamics.collocation import solve as solving
 from geocontact.dynamics.collocation import transcription
 from geocontact.dynamics.collocation.blocks import BlockFunctions, block_functions
@@ -249,7 +250,21 @@ def test_growth_of_an_upright_pendulum_is_that_of_its_linear_equation() -> None:
     seen = certificate(found.solved, system, trial, again, (True,))
     flow = expm(np.array([[0.0, 1.0], [g / length, 0.0]]))
     assert seen.growth == pytest.approx(np.linalg.norm(flow, 2), rel=1e-3)
+    left = fine_residual(system, trial, again.motion, again.p, (True,))
+    assert certificate(found.solved, system, trial, again, (True,), left=left) == seen
+    more = certificate(found.solved, system, trial, again, (True,), left=replace(left, moment=left.moment + 2.0))
+    assert more.moment == pytest.approx(seen.moment + 2.0) and not more.converged
     assert seen.converged, seen
+
+
+def test_departures_over_a_window_are_known_far_better_than_they_are_limited(
+    swung, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Against steps a million times as strict, on a coarse mesh."""
+    found = solve(swung[0], SolverOptions("radau", 3, 3))
+    quick = judged(*swung, found).window
+    monkeypatch.setattr(certifying, "COARSER", 1e-12)
+    assert 1e-4 < quick == pytest.approx(judged(*swung, found).window, abs=1e-3 * CertificateLimits().window)
 
 
 def test_tangents_are_those_of_scipy_s_simulations(swung) -> None:
