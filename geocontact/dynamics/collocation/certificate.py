@@ -56,8 +56,8 @@ def interval_residuals(
 
 POWERS = 6
 """Coefficients of an interval's polynomial for a given input."""
-COARSER = 1e-6
-"""Tolerance of a step over a longer window: in standing up its end is known to 1e-6 rad, of 1e-2 that pass."""
+COARSER = 1e-7
+"""Tolerance of a step over a longer window; at 1e-6 its end was off by up to 5e-5 rad, of 1e-2 that pass."""
 FOLLOWED = 32
 """Steps of the variational equations in an interval: in standing up the growth is then known to 1e-4."""
 
