@@ -94,7 +94,7 @@ def gain(options: argparse.Namespace) -> dict[str, Any]:
         )  # moved as far as it was chosen to be
         seen = finer.at(p, slopes=False)
         phase = PhaseProblem(seen.problem, {}, (), ())
-        (judgement,) = judged(truth.standing.equations, truth.controlled, truth.standing.turning, phase, seen.found)
+        (judgement,) = judged(truth.standing.stepper, truth.controlled, truth.standing.turning, phase, seen.found)
         left.append(float(judgement.force.max()))
         rows[one.name] = {
             "predicted": dict(zip(NAMES, one.movement.asked.sizes.tolist(), strict=True)),

@@ -294,7 +294,7 @@ def predict(out: Path, nodes: float, factor: float, keep: Callable[[dict[str, An
             mesh = np.linspace(0.0, 1.0, round(nodes * float(trial.time[-1])) + 1)
             found = refined(phase.control, solve(phase.control, options, meshes=(mesh,)), options, model.turning)
             seen = seen_in(model, found.motions[0], p, trial.time, trial.name)
-            (told,) = judged(model.equations, range(6), model.turning, phase, found, certify=found.solved)
+            (told,) = judged(model.stepper, range(6), model.turning, phase, found, certify=found.solved)
             passed = told.certificate is not None and told.certificate.converged
             how = {"ending": found.ending, "iterations": found.iterations, "cpu seconds": round(found.seconds, 2)}
             how |= {"certified": passed, "residual [N]": round(float(told.force.max()), 3)}

@@ -170,7 +170,7 @@ def finer_trials(
         )
         if not one.solved:
             raise ArithmeticError(f"{name}: {one.ending}")
-        (seen,) = judged(model.equations, range(6), model.turning, PhaseProblem(problem, {}, (), ()), one)
+        (seen,) = judged(model.stepper, range(6), model.turning, PhaseProblem(problem, {}, (), ()), one)
         found.append(FinerTrial(name, assistance, one.motions[0], seen))
     return found
 

@@ -60,7 +60,7 @@ def measured() -> list[dict[str, Any]]:
         coarse = solve(phase.control, rough(options), meshes=(mesh,))
         found = refined(phase.control, coarse, options, model.turning)
         began = time.process_time()
-        (seen,) = judged(model.equations, range(6), model.turning, phase, found)
+        (seen,) = judged(model.stepper, range(6), model.turning, phase, found)
         certified = seen.certificate is not None and seen.certificate.converged
         row = {"predictor": name, "iterations": found.iterations, "search [s]": found.seconds}
         row |= {"of it the first mesh [s]": coarse.seconds}

@@ -199,7 +199,7 @@ def predicted(out: Path, nodes: float) -> dict[str, Any]:
             options = SolverOptions("radau", 4, 1, 1e-7, 300, 60.0)
             found = refined(phase.control, solve(phase.control, options, meshes=(mesh,)), options, model.turning)
             seen = seen_in(model, found.motions[0], p, trial.time, trial.name)
-            (told,) = judged(model.equations, range(6), model.turning, phase, found, certify=found.solved)
+            (told,) = judged(model.stepper, range(6), model.turning, phase, found, certify=found.solved)
             result = TrialResult(
                 recorded=trial, model=seen, points=seen, acceleration=np.zeros_like(seen.q), judged=told
             )

@@ -18,7 +18,7 @@ from geocontact.dynamics.recorded_inputs import RecordedInputs
 
 Vector = Float[np.ndarray, " _"]
 REACHED, TOO_SHORT, NO_MEMORY = range(3)
-ROOM = 10000
+ROOM = 40000
 """Steps whose ends are kept; a motion of more of them is run again with more room."""
 
 SOURCE = r"""

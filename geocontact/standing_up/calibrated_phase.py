@@ -289,7 +289,7 @@ def calibrated_phase(
             phase = replace(phase, control=replace(phase.control, p=(p, p), guess_p=p))
             found = finer(phase, solved(phase, found))
     controlled = range(len(model.joints))
-    motions = judged(model.equations, controlled, model.turning, phase, found, certify=found.solved)
+    motions = judged(model.stepper, controlled, model.turning, phase, found, certify=found.solved)
     shares = cost_shares(phase, found)
     return CalibratedPhase(name, model, phase, found, numbers, motions, shares, ends, misfits, doubt, curves)
 

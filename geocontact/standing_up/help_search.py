@@ -262,7 +262,7 @@ class HelpSearch:
         self.stage(f"{name}, certificate")
         standing, p = self.model.standing, movement.found.p
         phase = PhaseProblem(movement.problem, {}, standing.parameters, ())
-        seen = judged(standing.equations, self.model.controlled, standing.turning, phase, movement.found)
+        seen = judged(standing.stepper, self.model.controlled, standing.turning, phase, movement.found)
         trials = tuple(
             trial_result(trial, motion, each, partial(seen_assisted, self.model, motion, p, name=trial.name))
             for trial, motion, each in zip(self.trials, movement.found.motions, seen, strict=True)

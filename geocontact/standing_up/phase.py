@@ -27,7 +27,6 @@ from geocontact.dynamics.collocation.certificate import (
 from geocontact.dynamics.collocation.multibody import jerk_controlled
 from geocontact.dynamics.collocation.problem import Bounds, ControlProblem, Course
 from geocontact.dynamics.collocation.solve import CollocationResult
-from geocontact.dynamics.equations import Equations
 from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.symbols import residual, scaled
 from geocontact.standing_up.chain import Subject
@@ -90,7 +89,7 @@ class JudgedMotion:
 
 
 def judged(
-    equations: Equations,
+    stepper: Stepper,
     controlled: Sequence[int],
     turning: Sequence[bool],
     phase: PhaseProblem,
@@ -98,14 +97,13 @@ def judged(
     *,
     certify: bool = True,
 ) -> tuple[JudgedMotion, ...]:
-    """Certificate of every trial; `controlled` are those of the equations' inputs that were sought."""
-    stepper = Stepper(equations)
+    """Certificate of every trial; `controlled` are those of the stepper's inputs that were sought."""
     system = phase.control.system
     each = []
     for trial, motion in zip(phase.control.trials, found.motions, strict=True):
         again: Resimulation = resimulation(stepper, motion, found.p, trial.inputs, controlled)
         left = fine_residual(system, trial, motion, found.p, turning)
-        seen = certificate(found.solved, system, trial, again, turning) if certify else None
+        seen = certificate(found.solved, system, trial, again, turning, left=left) if certify else None
         each.append(JudgedMotion(seen, left.time, left.force, left.moment))
     return tuple(each)
 

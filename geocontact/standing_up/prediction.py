@@ -113,7 +113,7 @@ def predicted_trial(
     coarse = solve(phase.control, rough(options), meshes=(mesh,), progress=progress)
     found = refined(phase.control, coarse, options, model.turning, progress=progress)
     motion = found.motions[0]
-    (seen,) = judged(model.equations, range(model.count - 3), model.turning, phase, found, certify=found.solved)
+    (seen,) = judged(model.stepper, range(model.count - 3), model.turning, phase, found, certify=found.solved)
     result = trial_result(trial, motion, seen, partial(seen_in, model, motion, found.p, name=trial.name))
     ended = found.solved, found.ending, found.iterations, found.seconds
     return PredictedTrial(name, model, phase, motion, found.p, found.objective, result, *ended)

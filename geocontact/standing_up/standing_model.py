@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,7 @@ from jaxtyping import Float
 from geocontact.contact.smooth_half_space import CONSTANT, HERTZ_SMOOTHING, HUNT_CROSSLEY_SMOOTHING
 from geocontact.data.multibody.model import Multibody
 from geocontact.dynamics.equations import Equations
+from geocontact.dynamics.simulate import Stepper
 from geocontact.dynamics.sphere_contact import StribeckFriction
 from geocontact.dynamics.symbols import column
 from geocontact.standing_up.strap_sites import ContactParameter, StrapSite
@@ -101,6 +103,11 @@ class StandingModel:
         for name in ("strap", "shear"):
             object.__setattr__(self, name, column(getattr(self, name), worn))
         object.__setattr__(self, "elsewhere", {name: column(of, 1) for name, of in self.elsewhere.items()})
+
+    @cached_property
+    def stepper(self) -> Stepper:
+        """Steps of the equations, made once for all motions."""
+        return Stepper(self.equations)
 
     @property
     def straps(self) -> SX:

@@ -57,7 +57,7 @@ def test_phase_a_of_a_trial_that_begins_on_the_chair() -> None:
     for load in (chair(trial.time), np.zeros((len(trial.time), 3))):
         phase = phase_a(model, SUBJECT, [type(trial)(**(vars(trial) | {"chair": load}))], noise)
         found = solve(phase.control, SolverOptions("radau", 4, 36, 1e-7, 300))
-        (seen,) = judged(model.equations, range(3), model.turning, phase, found, certify=found.solved)
+        (seen,) = judged(model.stepper, range(3), model.turning, phase, found, certify=found.solved)
         off.append(np.abs(found.p - PLANTED)[:3])
         residuals.append((found.objective, seen.certificate is not None and seen.certificate.converged))
     assert residuals[0][1] and residuals[1][0] > 3.0 * residuals[0][0], residuals

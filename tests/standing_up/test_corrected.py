@@ -73,7 +73,7 @@ def calibrated(monkeypatch: pytest.MonkeyPatch, *, curved: bool = True) -> Calib
     monkeypatch.setattr(numbers_module, "assumed_shares", lambda *_: none)
     for name in ("joints", "turning"):
         monkeypatch.setattr(StandingModel, name, ())
-    model = made(StandingModel, equations=None)
+    model = made(StandingModel, equations=None, stepper=None)
     search = PhaseSearch(SolverOptions("radau", 4, 20, 1e-7), resamples=2)
     return calibrated_phase("A", model, (), StandingNoise(), lambda trials, start: phase, search)
 

@@ -29,7 +29,8 @@ def test_sitting_down_and_a_higher_chair_give_the_feet_back() -> None:
     phase = phase_a(model, subject, trials, noise)
     meshes = tuple(np.linspace(0.0, 1.0, count + 1) for count in (36, 30))
     found = solve(phase.control, SolverOptions("radau", 4, 1, 1e-7, 300), meshes=meshes)
-    motions = judged(model.equations, range(3), model.turning, phase, found)
+    motions = judged(model.stepper, range(3), model.turning, phase, found)
+    assert model.stepper is model.stepper and model.stepper.equations is model.equations
     assert all(each.certificate is not None and each.certificate.converged for each in motions), motions
     off = np.abs(found.p - PLANTED)[:3]
     assert off[0] < 0.1 and off[1:].max() < 4e-3, off
@@ -54,7 +55,7 @@ def test_one_trial_of_another_task_gives_the_feet_back(task: str) -> None:
     mesh = np.linspace(0.0, 1.0, round(30.0 * float(trial.time[-1])) + 1)
     options = SolverOptions("radau", 4, 1, 1e-7, 300)
     found = refined(phase.control, solve(phase.control, options, meshes=(mesh,)), options, model.turning)
-    (motion,) = judged(model.equations, range(3), model.turning, phase, found)
+    (motion,) = judged(model.stepper, range(3), model.turning, phase, found)
     assert motion.certificate is not None and motion.certificate.converged, motion.certificate
     off = np.abs(found.p - PLANTED)[:3]
     assert off[0] < 0.2 and off[1:].max() < 6e-3, off

@@ -25,8 +25,10 @@ class BlockFunctions:
     ----------
     rows
         How many constraints it has.
-    value, gradient, jacobian
-        (variables, data) to cost and constraints, slope of the cost, entries of the constraints' first derivatives.
+    cost, constraints
+        (variables, data) to each.
+    gradient, jacobian
+        (variables, data) to the cost and its slope, to the constraints and entries of their first derivatives.
     hessian
         (variables, data, multipliers) to entries of the Lagrangian's second derivatives, upper half.
     patterns
@@ -34,7 +36,8 @@ class BlockFunctions:
     """
 
     rows: int
-    value: Function
+    cost: Function
+    constraints: Function
     gradient: Function
     jacobian: Function
     hessian: Function
@@ -46,13 +49,16 @@ def block_functions(
 ) -> BlockFunctions:
     """Functions of expressions of the problem's variables and of numbers of each place.
 
+    What stands several times in the expressions is worked out once, in their derivatives too.
+
     Parameters
     ----------
     held
         Variables by which nothing is derived: slopes by them are given as 0, and no entry is theirs. None by default.
     """
-    from casadi import SX, Function, densify, gradient, hessian, jacobian, triu
+    from casadi import SX, Function, cse, densify, gradient, hessian, jacobian, triu
 
+    cost, constraints = cse([cost, constraints])
     rows, count = constraints.numel(), variables.numel()
     moves = np.arange(count) if held is None else np.flatnonzero(~held)
     moving = variables[moves.tolist(), :]
@@ -66,9 +72,10 @@ def block_functions(
     given = [variables, data]
     return BlockFunctions(
         rows,
-        Function("value", given, [densify(cost), densify(constraints)]),
-        Function("gradient", given, [densify(slope)]),
-        Function("jacobian", given, [_nonzeros(by)]),
+        Function("cost", given, [densify(cost)]),
+        Function("constraints", given, [densify(constraints)]),
+        Function("gradient", given, [densify(cost), densify(slope)]),
+        Function("jacobian", given, [densify(constraints), _nonzeros(by)]),
         Function("hessian", [*given, multipliers], [_nonzeros(twice)]),
         (np.stack([first[0], moves[first[1]]]), moves[second]),
     )
@@ -168,22 +175,23 @@ def sparse_program(blocks: Sequence[ProgramBlock], size: int) -> SparseProgram:
     pieces = [_Piece(block, z) for block in blocks]
     count = sum(piece.rows for piece in pieces)
     lam_g = MX.sym("lam_g", count)
-    cost, slope, rows, first = MX(0), MX.zeros(size, 1), [], 0
+    slope, costs, rows, first = MX.zeros(size, 1), [MX(0), MX(0)], list[tuple[MX, MX]](), 0
     jacobian, hessian = _Entries(), _Entries()
     for piece in pieces:
-        own_cost, own_rows = piece.value()
-        cost = cost + own_cost
-        rows.append(own_rows)
-        slope = slope + piece.gradient(size)
-        jacobian.add(*piece.jacobian(first))
+        beside_slope, own_slope = piece.gradient(size)
+        beside_jacobian, entries = piece.jacobian(first)
+        costs = [costs[0] + piece.cost(), costs[1] + beside_slope]
+        rows.append((piece.constraints(), beside_jacobian))
+        slope = slope + own_slope
+        jacobian.add(*entries)
         hessian.add(*piece.hessian(lam_f, lam_g[first : first + piece.rows]))
         first += piece.rows
-    g = vertcat(*rows)
+    g = [vertcat(*each) for each in zip(*rows, strict=True)]
     return SparseProgram(
         size,
-        Function("nlp", [z, none], [cost, g], ["x", "p"], ["f", "g"]),
-        Function("nlp_grad_f", [z, none], [cost, slope], ["x", "p"], ["f", "grad:f:x"]),
-        Function("nlp_jac_g", [z, none], [g, jacobian.matrix(count, size)], ["x", "p"], ["g", "jac:g:x"]),
+        Function("nlp", [z, none], [costs[0], g[0]], ["x", "p"], ["f", "g"]),
+        Function("nlp_grad_f", [z, none], [costs[1], slope], ["x", "p"], ["f", "grad:f:x"]),
+        Function("nlp_jac_g", [z, none], [g[1], jacobian.matrix(count, size)], ["x", "p"], ["g", "jac:g:x"]),
         Function(
             "nlp_hess_l",
             [z, none, lam_f, lam_g],
@@ -210,13 +218,24 @@ class _Entries:
         self.values.append(values)
 
     def matrix(self, height: int, width: int) -> MX:
-        from casadi import DM, MX, Sparsity, mtimes, vertcat
+        from casadi import MX, Sparsity, mtimes, vertcat
 
         key = np.concatenate(self.columns) * height + np.concatenate(self.rows)
-        places, which = np.unique(key, return_inverse=True)
-        pattern = Sparsity.triplet(height, width, (places % height).tolist(), (places // height).tolist())
-        sums = DM.triplet(which.tolist(), list(range(len(which))), DM.ones(len(which)), len(places), len(which))
-        return MX(pattern, mtimes(sums, vertcat(*self.values)))
+        places, first, which = np.unique(key, return_index=True, return_inverse=True)
+        begins = np.searchsorted(places, height * np.arange(width + 1))
+        pattern = Sparsity(height, width, begins.tolist(), (places % height).tolist())
+        values, further = vertcat(*self.values), np.delete(np.arange(len(key)), first)
+        entries = values[first.tolist()]
+        if len(further):
+            entries = entries + mtimes(_sums(which[further], len(places)), values[further.tolist()])
+        return MX(pattern, entries)
+
+
+def _sums(which: Int[np.ndarray, " n"], count: int) -> DM:
+    """What adds each of n entries to one of `count`: a 1 in every column."""
+    from casadi import DM, Sparsity
+
+    return DM.ones(Sparsity(count, len(which), list(range(len(which) + 1)), which.tolist()))
 
 
 class _Piece:
@@ -228,28 +247,33 @@ class _Piece:
         self.own = z[b.index.ravel(order="F").tolist()].reshape((b.index.shape[0], b.places))
         self.data: DM | Float[np.ndarray, "d m"] = b.values
 
-    def value(self) -> tuple[MX, MX]:
-        from casadi import sum2, vec
+    def cost(self) -> MX:
+        from casadi import sum2
 
-        cost, rows = self.block.functions.value.map(self.block.places)(self.own, self.data)
-        return sum2(cost), vec(rows)
+        return sum2(self.block.functions.cost.map(self.block.places)(self.own, self.data))
 
-    def gradient(self, size: int) -> MX:
-        from casadi import DM, mtimes, vec
+    def constraints(self) -> MX:
+        from casadi import vec
 
-        index = self.block.index.ravel(order="F")
-        sums = DM.triplet(index.tolist(), list(range(len(index))), DM.ones(len(index)), size, len(index))
-        slope = self.block.functions.gradient.map(self.block.places)
-        return mtimes(sums, vec(slope(self.own, self.data)))
+        return vec(self.block.functions.constraints.map(self.block.places)(self.own, self.data))
 
-    def jacobian(self, first: int) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"], MX]:
+    def gradient(self, size: int) -> tuple[MX, MX]:
+        """Cost and its slope."""
+        from casadi import mtimes, sum2, vec
+
+        cost, slope = self.block.functions.gradient.map(self.block.places)(self.own, self.data)
+        return sum2(cost), mtimes(_sums(self.block.index.ravel(order="F"), size), vec(slope))
+
+    def jacobian(self, first: int) -> tuple[MX, tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"], MX]]:
+        """Constraints; rows and columns of their first derivatives, and entries."""
         from casadi import vec
 
         b = self.block
         rows, columns = b.functions.patterns[0]
         each = first + b.functions.rows * np.arange(b.places)
         where = (rows[:, None] + each).ravel(order="F"), b.index[columns].ravel(order="F")
-        return *where, vec(b.functions.jacobian.map(b.places)(self.own, self.data))
+        found, entries = b.functions.jacobian.map(b.places)(self.own, self.data)
+        return vec(found), (*where, vec(entries))
 
     def hessian(self, lam_f: MX, lam_g: MX) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"], MX]:
         from casadi import repmat, vec, vertcat

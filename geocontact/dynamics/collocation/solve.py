@@ -33,6 +33,9 @@ MOST_HALVINGS = 4
 ROUGH = 1e-3
 """Tolerance on meshes that are halved afterwards: what they leave of the balance is then known to a hundredth."""
 
+FEW_NEW = 1.25
+"""Times as many intervals below which a mesh may be the last: to solve it again takes longer than a few iterations."""
+
 
 def rough(options: SolverOptions) -> SolverOptions:
     """The same with the tolerance of meshes on the way."""
@@ -50,8 +53,8 @@ def refined(
     """Solve again, from what was found, on meshes of `halved`, until no interval leaves more than the limits let pass.
 
     At most `MOST_HALVINGS` times, and no further where a search was not solved; iterations and seconds are those of all
-    searches, and the options' seconds hold for all of them. Meshes on the way are solved to `ROUGH`, the last one to
-    the options' tolerance.
+    searches, and the options' seconds hold for all of them. Meshes on the way are solved to `ROUGH`, the last one, and
+    any that may be the last, to the options' tolerance.
 
     Parameters
     ----------
@@ -63,12 +66,13 @@ def refined(
     began, iterations, seconds, halvings = process_time(), found.iterations, found.seconds, 0
     while found.solved:
         meshes = halved(problem, found, turning, limits) if halvings < MOST_HALVINGS else found.meshes
-        same = all(len(a) == len(b) for a, b in zip(meshes, found.meshes, strict=True))
+        new, old = ([len(mesh) - 1 for mesh in each] for each in (meshes, found.meshes))
+        same, few = new == old, sum(new) < FEW_NEW * sum(old)
         if same and found.tolerance <= options.tolerance:
             break
         halvings += not same
         left = max(options.seconds - seconds - (process_time() - began), 1e-3)
-        chosen = replace(options if same else rough(options), seconds=left)
+        chosen = replace(options if same or few else rough(options), seconds=left)
         found = solve(problem, chosen, meshes=meshes, warm=found, progress=progress)
         iterations += found.iterations
     return replace(found, iterations=iterations, seconds=seconds + process_time() - began)
@@ -225,12 +229,13 @@ def solve(
         transcription = Transcription(problem, points, on, scales)
         found = _solved(transcription, o, warm, progress, o.seconds - (time.process_time() - began))
         iterations += found.iterations
+        if not left or not found.solved:
+            break
         finer = _refined(problem, found, scales.x, scales.path, o.residual)
-        if not left or not found.solved or all(len(a) == len(b) for a, b in zip(on, finer, strict=True)):
+        if all(len(a) == len(b) for a, b in zip(on, finer, strict=True)):
             break
         warm, on = found, finer
-    seconds = time.process_time() - began
-    return CollocationResult(**{**vars(found), "iterations": iterations, "seconds": seconds})
+    return CollocationResult(**{**vars(found), "iterations": iterations, "seconds": time.process_time() - began})
 
 
 def _solved(
@@ -307,6 +312,9 @@ def _settings(o: SolverOptions, warm: bool, multipliers: bool, seconds: float) -
         "max_iter": o.iterations,
         "max_cpu_time": seconds,
         "linear_solver": "mumps",
+        "mumps_pivot_order": 0,  # minimum degree: intervals stand in a row
+        "mumps_permuting_scaling": 0,
+        "mumps_mem_percent": 100,
         "print_level": 0,
         "sb": "yes",
         "nlp_scaling_method": "none",  # variables and constraints have been scaled

@@ -77,7 +77,7 @@ def coarsely() -> Iterator[None]:
     """Meshes are halved once only, and nothing is certified: neither changes what a table has to say."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(refinement, "MOST_HALVINGS", 1)
-        patch.setattr(judged, "certificate", lambda *_: None)
+        patch.setattr(judged, "certificate", lambda *_, **__: None)
         yield
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ from casadi import SX, Function
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
+from geocontact.dynamics.collocation import certificate as certifying
+from geocontact.dynamics.collocation import solve as solving
 from geocontact.dynamics.collocation import transcription
 from geocontact.dynamics.collocation.blocks import BlockFunctions, block_functions
 from geocontact.dynamics.collocation.certificate import (
@@ -169,6 +172,25 @@ def test_meshes_on_the_way_are_solved_roughly_the_last_as_asked(swung) -> None:
     np.testing.assert_allclose(found.motions[0].states, each.motions[0].states, atol=1e-5)
 
 
+def test_a_mesh_that_may_be_the_last_is_solved_once(swung, monkeypatch: pytest.MonkeyPatch) -> None:
+    """To the tolerance where fewer than a quarter of the intervals are new, roughly and again where more are."""
+    searched = []
+
+    def counted(problem: ControlProblem, options: SolverOptions, **given: Any) -> CollocationResult:
+        searched.append((len(given["meshes"][0]) - 1, options.tolerance))
+        return solve(problem, options, **given)
+
+    monkeypatch.setattr(solving, "solve", counted)
+    options = SolverOptions("radau", 3, 16)
+    coarse = solve(swung[0], rough(options))
+    left = fine_residual(swung[0].system, swung[0].trials[0], coarse.motions[0], coarse.p, (True, True)).moment
+    most = np.sort(left.reshape(16, -1).max(axis=1))[::-1]
+    assert refined(swung[0], coarse, options, (True, True), CertificateLimits(moment=most[2])).solved
+    assert refined(swung[0], coarse, options, (True, True), CertificateLimits(moment=most[4])).solved
+    once, twice = (18, options.tolerance), (20, options.tolerance)
+    assert searched == [once, (20, ROUGH), twice]
+
+
 def test_halving_comes_to_an_end(swung) -> None:
     never = refined(
         swung[0],
@@ -228,7 +250,21 @@ def test_growth_of_an_upright_pendulum_is_that_of_its_linear_equation() -> None:
     seen = certificate(found.solved, system, trial, again, (True,))
     flow = expm(np.array([[0.0, 1.0], [g / length, 0.0]]))
     assert seen.growth == pytest.approx(np.linalg.norm(flow, 2), rel=1e-3)
+    left = fine_residual(system, trial, again.motion, again.p, (True,))
+    assert certificate(found.solved, system, trial, again, (True,), left=left) == seen
+    more = certificate(found.solved, system, trial, again, (True,), left=replace(left, moment=left.moment + 2.0))
+    assert more.moment == pytest.approx(seen.moment + 2.0) and not more.converged
     assert seen.converged, seen
+
+
+def test_departures_over_a_window_are_known_far_better_than_they_are_limited(
+    swung, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Against steps a million times as strict, on a coarse mesh."""
+    found = solve(swung[0], SolverOptions("radau", 3, 3))
+    quick = judged(*swung, found).window
+    monkeypatch.setattr(certifying, "COARSER", 1e-12)
+    assert 1e-4 < quick == pytest.approx(judged(*swung, found).window, abs=1e-3 * CertificateLimits().window)
 
 
 def test_tangents_are_those_of_scipy_s_simulations(swung) -> None:

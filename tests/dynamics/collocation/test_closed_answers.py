@@ -81,7 +81,7 @@ def shared_parameter() -> ControlProblem:
 
 
 def test_gradient_and_hessian_against_differences() -> None:
-    """With shared parameters, inputs, a path and a duration among the variables."""
+    """With shared parameters, inputs, a path and a duration among the variables; values beside them are the values."""
     problem = shared_parameter()
     meshes = np.array([0.0, 0.3, 1.0]), np.array([0.0, 0.5, 0.6, 1.0])
     on = Transcription(problem, scheme("radau", 2), meshes, scales_from(problem), by_all=True)
@@ -94,6 +94,9 @@ def test_gradient_and_hessian_against_differences() -> None:
         return 0.7 * slope + np.array(program.jacobian(at, [])[1]).T @ weights
 
     value = lambda at: np.r_[tuple(np.array(each).ravel() for each in program.value(at, []))]  # noqa: E731
+    cost, constraints = value(z)[0], value(z)[1:]
+    assert float(program.gradient(z, [])[0]) == pytest.approx(cost, rel=1e-12)
+    np.testing.assert_allclose(np.array(program.jacobian(z, [])[0]).ravel(), constraints, rtol=1e-12, atol=1e-12)
     steps = h * np.eye(on.size)
     rows = np.array([(value(z + s) - value(z - s)) / (2 * h) for s in steps]).T
     np.testing.assert_allclose(np.array(program.gradient(z, [])[1]).ravel(), rows[0], atol=1e-8)
