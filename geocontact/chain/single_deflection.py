@@ -140,8 +140,8 @@ def known_changes(
     for k in np.flatnonzero(known & moved.any(axis=1) if by_slots else known).tolist():
         further = geometry.deflection(movement, others[k])
         du[k], drate[k] = further[0] - u, further[1] - rate
-    arrays = (np.ascontiguousarray(each) for each in (u, rate, numbers, du, drate, dlaw))
-    loads, slopes = all_slopes(movement.time, *arrays, known)
+    u, rate, numbers, dlaw = (np.ascontiguousarray(each) for each in (u, rate, numbers, dlaw))
+    loads, slopes = all_slopes(movement.time, u, rate, numbers, du, drate, dlaw, known)
     nothing = np.zeros_like(loads)
     return Loads(loads, nothing, nothing), [
         Loads(one, nothing, nothing) if there else None for one, there in zip(slopes, known, strict=True)

@@ -126,7 +126,7 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
 
 def _whitened(whitening: Whitening, features: Float[np.ndarray, "t c m"]) -> Float[np.ndarray, "n m"]:
     """Whitened features of a trial; those of other trials are nothing in it, many of a channel nothing in others."""
-    felt, whitener = features.any(axis=0), whitening.whitener
+    felt, whitener = np.asarray(features.any(axis=0)), whitening.whitener
     out = np.zeros((len(whitening.directions), features.shape[-1]))
     if isinstance(whitener, Whitener) and (felt.sum(axis=0) <= 1).all():
         for c, own in enumerate(felt):
