@@ -65,21 +65,21 @@ def even_points(dimensions: int) -> Float[np.ndarray, "few d"]:
     J. Sci. Comput. 30:2635). `scipy.stats` has the same points, and is asked for those of more dimensions; it takes
     0.3 s to import.
     """
-    second = np.array([1, 3, 3, 3, 1, 1, 3, 1, 1, 1, 1, 1, 3, 3, 1, 3, 1, 3, 1, 3, 3])
+    second = np.array([int(digit) for digit in "133311311111331313133"])  # one digit each
     if dimensions == 0:
         return np.zeros((0, 0))
-    if dimensions > len(second):
+    if dimensions > len(second) or FEW > 2**2:
         from scipy.stats import qmc
 
         return np.asarray(qmc.Sobol(dimensions, seed=0).random(FEW))
-    rng, place = np.random.default_rng(0), np.arange(30)  # binary digits
+    rng, place = np.random.default_rng(0), np.arange(np.iinfo(np.int32).bits - 2)  # binary digits, as there
     shift = rng.integers(2, size=(dimensions, len(place)), dtype=np.uint32) @ 2**place
     mixed = np.tril(rng.integers(2, size=(dimensions, len(place), len(place)), dtype=np.uint32)).astype(int)
     mixed[:, place, place] = 1
     numbers = np.stack([np.full(dimensions, 2 << place[-2]), second[:dimensions] << place[-2]], axis=1)
     digits = numbers[..., None] >> place[::-1] & 1
     one, other = (np.einsum("dpk,djk->jdp", mixed, digits) % 2) @ 2 ** place[::-1]
-    return np.array([shift, shift ^ one, shift ^ one ^ other, shift ^ other]) / 2.0 ** len(place)
+    return np.array([shift, shift ^ one, shift ^ one ^ other, shift ^ other])[:FEW] / 2.0 ** len(place)
 
 
 def measured_fit(
