@@ -79,6 +79,19 @@ class LawParameters:
             found[place] = source(values) if callable(source) else values[source]
         return found
 
+    def towards(
+        self, values: Mapping[str, float], others: Sequence[Mapping[str, float]]
+    ) -> Float[np.ndarray, "q slots"]:
+        """How far each number is further on at other values; KeyError for a name that has no value."""
+        found = np.zeros((len(others), len(self.neutral)))
+        for place, source in self._open:
+            own = source(values) if callable(source) else values[source]
+            for k, other in enumerate(others):
+                number = source(other) if callable(source) else other[source]
+                if number != own:
+                    found[k, place] = number - own
+        return found
+
     @cached_property
     def _fixed(self) -> Float[np.ndarray, " slots"]:
         """Numbers that no parameter changes."""

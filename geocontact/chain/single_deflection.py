@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from geocontact.chain.differentiated_inputs import DifferentiatedInputs
 from geocontact.chain.interface_law import INTERFACE_LAW, MEMORY, interface_force
@@ -26,7 +26,6 @@ from geocontact.chain.system import (
     nothing_known,
     require_convergence,
     start_over,
-    towards,
 )
 from geocontact.geometry.kernels.compile import kernel
 
@@ -78,6 +77,38 @@ def along_slopes(
     return found
 
 
+@kernel
+def all_slopes(
+    time: Float[np.ndarray, " t"],
+    u: Float[np.ndarray, "t c"],
+    rate: Float[np.ndarray, "t c"],
+    laws: Float[np.ndarray, "c numbers"],
+    du: Float[np.ndarray, "q t c"],
+    drate: Float[np.ndarray, "q t c"],
+    dlaws: Float[np.ndarray, "q c numbers"],
+    known: Bool[np.ndarray, " q"],
+) -> tuple[Float[np.ndarray, "t c"], Float[np.ndarray, "q t c"]]:
+    """Loads of all deflections, each with a law of its own, and how they change along the directions that are known."""
+    samples, count = u.shape
+    loads, slopes = np.empty((samples, count)), np.zeros((len(known), samples, count))
+    for c in range(count):
+        moving = known.copy()
+        for k in np.flatnonzero(known):
+            moving[k] = np.any(dlaws[k, c] != 0.0) or np.any(du[k, :, c] != 0.0)
+        ways = np.flatnonzero(moving)
+        own, own_rate = np.empty(samples), np.empty(samples)
+        own[:], own_rate[:] = u[:, c], rate[:, c]
+        further, faster = np.empty((samples, len(ways))), np.empty((samples, len(ways)))
+        dlaw = np.empty((len(ways), laws.shape[1]))
+        for j, k in enumerate(ways):
+            further[:, j], faster[:, j], dlaw[j] = du[k, :, c], drate[k, :, c], dlaws[k, c]
+        found = along_slopes(time, own, own_rate, laws[c], further, faster, dlaw)
+        loads[:, c] = found[:, 0]
+        for j, k in enumerate(ways):
+            slopes[k, :, c] = found[:, 1 + j]
+    return loads, slopes
+
+
 def known_changes(
     geometry: Geometry,
     movement: DifferentiatedInputs,
@@ -100,29 +131,17 @@ def known_changes(
     u, rate = geometry.deflection(movement, values)
     samples, count = u.shape
     numbers = np.broadcast_to(numbers, (count, SLOTS))
-    ways = towards(law.slots, values, others).reshape(len(others), len(law.slots.neutral) // SLOTS, SLOTS)
+    ways = law.slots.towards(values, others).reshape(len(others), len(law.slots.neutral) // SLOTS, SLOTS)
     dlaw = np.broadcast_to(ways, (len(others), count, SLOTS))
-    moved = towards(geometry.slots, values, others)
+    moved = geometry.slots.towards(values, others)
     yielding = moved[:, gives_way].any(axis=1)
     known = ~np.logical_or(yielding, dlaw[..., UNKNOWN].any(axis=(1, 2)))
     du, drate = np.zeros((2, len(others), samples, count))
-    for k, other in enumerate(others):
-        if known[k] and (moved[k].any() or not by_slots):
-            further = geometry.deflection(movement, other)
-            du[k], drate[k] = further[0] - u, further[1] - rate
-    loads, slopes = np.empty_like(u), np.zeros((len(others), samples, count))
-    for c in range(count):
-        moving = known & (du[..., c].any(axis=1) | dlaw[:, c].any(axis=1))
-        found = along_slopes(
-            movement.time,
-            np.ascontiguousarray(u[:, c]),
-            np.ascontiguousarray(rate[:, c]),
-            numbers[c].copy(),
-            np.ascontiguousarray(du[moving, :, c].T),
-            np.ascontiguousarray(drate[moving, :, c].T),
-            np.ascontiguousarray(dlaw[moving, c]),
-        )
-        loads[:, c], slopes[moving, :, c] = found[:, 0], found[:, 1:].T
+    for k in np.flatnonzero(known & moved.any(axis=1) if by_slots else known).tolist():
+        further = geometry.deflection(movement, others[k])
+        du[k], drate[k] = further[0] - u, further[1] - rate
+    u, rate, numbers, dlaw = (np.ascontiguousarray(each) for each in (u, rate, numbers, dlaw))
+    loads, slopes = all_slopes(movement.time, u, rate, numbers, du, drate, dlaw, known)
     nothing = np.zeros_like(loads)
     return Loads(loads, nothing, nothing), [
         Loads(one, nothing, nothing) if there else None for one, there in zip(slopes, known, strict=True)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any, Protocol, runtime_checkable
+from functools import cache, cached_property
+from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -21,7 +21,6 @@ from geocontact.chain.links import (
     ContactSites,
     Geometry,
     Law,
-    LawParameters,
     Loads,
     Modifier,
     Motion,
@@ -111,17 +110,6 @@ class DifferentiatedLoads(Protocol):
         """
 
 
-def towards(slots: LawParameters, values: Values, others: Sequence[Values]) -> Float[np.ndarray, "q slots"]:
-    """How far each number is further on at other values."""
-    own = slots.numbers(values)
-    found = np.zeros((len(others), own.size))
-    for row, other in zip(found, others, strict=True):
-        numbers = slots.numbers(other)
-        differ = numbers != own
-        row[differ] = numbers[differ] - own[differ]
-    return found
-
-
 def tangents(
     system: System, trial: Trial, values: Mapping[str, float], steps: Mapping[str, float]
 ) -> dict[str, Float[np.ndarray, "t c"]]:
@@ -129,7 +117,7 @@ def tangents(
     are not known. 0 where the model has no value.
     """
     geometry, motion = system.geometry, system.motion
-    if not isinstance(geometry, DifferentiatedLoads):
+    if not _differentiated(geometry):
         return {}
     numbers = {**trial.covariates, **system.known, **values}
     movement = motion.seen(trial, numbers)
@@ -155,6 +143,16 @@ def tangents(
         change = (own - before) / steps[name]
         slopes[name] = np.where(np.isfinite(change), change, 0.0)
     return slopes
+
+
+@cache
+def _has_changes(kind: type) -> bool:
+    """Whether a kind of geometry knows how its loads change: a protocol takes long to compare."""
+    return issubclass(kind, DifferentiatedLoads)
+
+
+def _differentiated(geometry: Geometry) -> TypeGuard[DifferentiatedLoads]:
+    return _has_changes(type(geometry))
 
 
 def _same(one: DifferentiatedInputs, other: DifferentiatedInputs) -> bool:

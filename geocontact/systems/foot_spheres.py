@@ -20,7 +20,6 @@ from geocontact.chain.system import (
     nothing_known,
     require_convergence,
     start_over,
-    towards,
 )
 from geocontact.geometry.kernels.compile import kernel
 from geocontact.systems.foot_slopes import BRANCH, ELASTIC, MEMORY, UNKNOWN, B, K, stand_slopes
@@ -231,9 +230,9 @@ class FootSpheres:
             return None
         pose, rate = self.pose(movement)
         depth, closing, speed = approach(pose, rate, spheres)
-        dlaw = towards(law.slots, values, others)
+        dlaw = law.slots.towards(values, others)
         dspheres = np.array([self.spheres(other) - spheres for other in others]).reshape(-1, *spheres.shape)
-        known = ~((towards(self.slots, values, others)[:, 0] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
+        known = ~((self.slots.towards(values, others)[:, 0] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
         moving = known & (dlaw.any(axis=1) | dspheres.any(axis=(1, 2)))
         normal, slopes = stand_slopes(movement.time, depth, closing, spheres, numbers, dspheres[moving], dlaw[moving])
         tangential = rub(normal, speed, rate[2], numbers, n)

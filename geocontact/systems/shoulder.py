@@ -26,7 +26,7 @@ from geocontact.chain.interface_law import INTERFACE_LAW
 from geocontact.chain.interface_slopes import UNKNOWN
 from geocontact.chain.links import Balance, Law, LawParameters, Loads, Motion, Sensor, Source, Values
 from geocontact.chain.magnitudes import Magnitudes
-from geocontact.chain.system import System, require_convergence, towards
+from geocontact.chain.system import System, require_convergence
 from geocontact.chain.traits import Mass, Migration, Traits, Way
 from geocontact.data.parameter import Parameter
 from geocontact.systems.base import Base, CaseNeeds, require_numbers
@@ -94,7 +94,7 @@ class ShoulderArm:
         motion, unsolved, path = self._swung(movement, law, values, along=True)
         if unsolved or path is None:
             return None
-        dn, dlaw = towards(self.slots, values, others), towards(law.slots, values, others)
+        dn, dlaw = self.slots.towards(values, others), law.slots.towards(values, others)
         known = ~((dn[:, COMPLIANCE] != 0.0) | dlaw[:, UNKNOWN].any(axis=1))
         moving = known & (dn.any(axis=1) | dlaw.any(axis=1))
         nothing = np.zeros((len(movement.time), 1))

@@ -7,7 +7,8 @@ import pytest
 
 from geocontact.gap.case.whitening import SENSOR_LOUDER, Whitening, usual_levels
 from geocontact.gap.selection.evidence import log_evidence
-from geocontact.identify.noise.covariance import Layout
+from geocontact.gap.selection.surrogate import _whitened
+from geocontact.identify.noise.covariance import Layout, Whitener
 from geocontact.identify.noise.input_noise import Instant, NoiseSpectrum
 from geocontact.identify.noise.noise_levels import NoiseLevels
 from geocontact.identify.signals.low_pass import LowPass
@@ -45,6 +46,39 @@ def test_without_variation_it_is_the_whitener() -> None:
     layout, levels, _ = parts(np.random.default_rng(1))
     whitening = Whitening.of(layout.whitener(levels), np.zeros((60, 1, 0)))
     assert whitening.log_scale == layout.whitener(levels).log_scale
+
+
+def two_channels() -> tuple[np.ndarray, Whitener]:
+    """Samples of two channels that were measured, one now and then, and the whitener of their noise."""
+    time, present = 0.05 * np.arange(60), np.ones((60, 2), bool)
+    present[::7, 0] = present[20:35, 1] = False
+    answers = np.random.default_rng(5).standard_normal((60, 2, 1))
+    levels = NoiseLevels(np.full(2, 0.4), np.full((1, 2), 0.6), np.full((1, 2), 0.2), np.ones(2), np.array([1.0]))
+    heard = Instant(time, answers, answers, (SPECTRUM,))
+    return present, Layout.of(time, present, heard, np.ones((60, 2)), np.zeros((60, 2))).whitener(levels)
+
+
+@pytest.mark.parametrize("channel", [0, 1])
+def test_what_one_channel_has_alone_is_whitened_as_with_zeros_in_the_other(channel: int) -> None:
+    _, whitener = two_channels()
+    values = np.zeros((60, 2, 3))
+    values[:, channel] = np.random.default_rng(6).standard_normal((60, 3))
+    np.testing.assert_allclose(whitener.of_channel(values[:, channel], channel, 2), whitener(values), atol=1e-12)
+
+
+def test_features_are_whitened_alike_whether_channels_share_them_or_not() -> None:
+    """Features of one channel each, with one more that both have: the former are whitened as they are alone."""
+    present, whitener = two_channels()
+    rng = np.random.default_rng(7)
+    features = np.zeros((60, 2, 5))
+    features[:, 0, :2], features[:, 1, 2:4] = rng.standard_normal((2, 60, 2))
+    both = features.copy()
+    both[..., 4] = 1.0
+    whitening = Whitening.of(whitener, rng.standard_normal((60, 2, 2)))
+    alone, beside = (_whitened(whitening, each) for each in (features, both))
+    np.testing.assert_allclose(alone[:, :4], beside[:, :4], atol=1e-12)
+    np.testing.assert_allclose(beside, whitening(both), atol=1e-12)
+    assert not alone[:, 4].any() and len(alone) == present.sum()
 
 
 def test_values_of_measured_samples_alone_are_whitened_as_among_all() -> None:

@@ -77,7 +77,10 @@ class Whitening:
 
     def __call__(self, values: Float[np.ndarray, "t c p"]) -> Float[np.ndarray, "n p"]:
         """Whitened columns."""
-        white = self.whitener(values)
+        return self.without_variation(self.whitener(values))
+
+    def without_variation(self, white: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "n p"]:
+        """What W made of columns, whitened as well of what varies from trial to trial."""
         return np.asarray(white - self.directions @ (self.gains[:, None] * (self.directions.T @ white)))
 
 

@@ -21,6 +21,7 @@ from geocontact.gap.case.problem import Problem, filled
 from geocontact.gap.case.whitening import Whitening
 from geocontact.gap.selection.evidence import Judged, log_evidence, prior_spread
 from geocontact.gap.selection.evidence import judged as judged_as
+from geocontact.identify.noise.covariance import Whitener
 from geocontact.identify.optimise.bounded_gauss_newton import CLOSE
 
 ALONG = (12, 30)  # bumps over one input's position or rate, wide ones and narrow ones
@@ -124,12 +125,15 @@ def surrogate(problem: Problem, judged: Judged) -> Surrogate:
 
 
 def _whitened(whitening: Whitening, features: Float[np.ndarray, "t c m"]) -> Float[np.ndarray, "n m"]:
-    """Whitened features of a trial; those of other trials are nothing in it."""
-    own = features.any(axis=(0, 1))
-    if own.all():
-        return whitening(features)
+    """Whitened features of a trial; those of other trials are nothing in it, many of a channel nothing in others."""
+    felt, whitener = np.asarray(features.any(axis=0)), whitening.whitener
     out = np.zeros((len(whitening.directions), features.shape[-1]))
-    out[:, own] = whitening(features[..., own])
+    if isinstance(whitener, Whitener) and (felt.sum(axis=0) <= 1).all():
+        for c, own in enumerate(felt):
+            out[:, own] = whitener.of_channel(features[:, c, own], c, len(felt))
+        return whitening.without_variation(out)
+    any_channel = felt.any(axis=0)
+    out[:, any_channel] = whitening(features[..., any_channel])
     return out
 
 

@@ -54,7 +54,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     left = [r - e for r, e in zip(one.model.residuals, explained, strict=True)]
     varied = [v * one.noise.varies for v in problem.varied(one.model.jacobian)]
     louder = [np.ones(part.shape) for part in left]
-    normal = gained_by_normal(problem.layouts, one.noise.levels, varied)
+    normal = most_by_normal(problem.layouts, one.noise.levels, varied)
     found: dict[int, StudentNoise] = {}
     for _ in range(TURNS):
         layouts = [layout.louder(times) for layout, times in zip(problem.layouts, louder, strict=True)]
@@ -65,7 +65,7 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
             columns = [sharp(each[:, c]) for each in off]
             own = student_noise(np.concatenate([each[np.isfinite(each)] for each in columns]))
             alike = returning([own.weights(each) for each in columns])
-            if own.gain > 2.0 * SURE + normal[c] and alike < by_chance(len(columns)):
+            if own.gain > normal[c] and alike < by_chance(len(columns)):
                 found[c] = own
         louder = [_louder(layout, each, found) for layout, each in zip(layouts, off, strict=True)]
         if not found:
@@ -73,13 +73,15 @@ def tails(problem: Problem, one: Judged, explained: Sequence[Float[np.ndarray, "
     return Tails(tuple(louder), {problem.system.outputs[c]: own for c, own in found.items()})
 
 
-def gained_by_normal(
+def most_by_normal(
     layouts: Sequence[Layout], levels: NoiseLevels, varied: Sequence[Float[np.ndarray, "_ c q"]]
 ) -> list[float]:
-    """What Student's distribution gains in each channel where noise is normal, of the covariance that it is taken for.
+    """What Student's distribution hardly gains in each channel where noise is normal, of the covariance that it is
+    taken for [nats].
 
     Not nothing: of two normal numbers the smaller, which `sharp` takes, is not normal, and the gain grows with the
-    number of samples. One draw, always the same.
+    number of samples, its spread with the root of it: a dozen nats for a few thousand. One draw, always the same, which
+    has that spread itself; twice `SURE` beyond it at the least.
     """
     rng = np.random.default_rng(0)
     off = []
@@ -89,7 +91,8 @@ def gained_by_normal(
             noise[rows] = np.linalg.solve(factor, rng.standard_normal(len(rows)))
         off.append(standing_out(layout, levels, np.nan_to_num(noise.reshape(layout.shape)), own))
     columns = [[sharp(each[:, c]) for each in off] for c in range(layouts[0].shape[1])]
-    return [student_noise(np.concatenate([x[np.isfinite(x)] for x in each])).gain for each in columns]
+    drawn = [student_noise(np.concatenate([x[np.isfinite(x)] for x in each])) for each in columns]
+    return [one.gain + max(2.0 * SURE, DEVIATIONS * float(np.sqrt(2.0)) * one.spread) for one in drawn]
 
 
 def sharp(off: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:

@@ -168,6 +168,14 @@ class Whitener:
         flat = values.reshape(values.shape[0] * values.shape[1], values.shape[-1])
         return np.concatenate([f @ flat[rows] for rows, f in zip(self.rows, self.factors, strict=True)])
 
+    def of_channel(self, values: Float[np.ndarray, "t p"], channel: int, channels: int) -> Float[np.ndarray, "n p"]:
+        """Whitened rows of what is given for all samples of one of so many channels and is 0 in the others."""
+        parts = []
+        for rows, f in zip(self.rows, self.factors, strict=True):
+            first, last = np.searchsorted(rows % channels, [channel, channel + 1])  # channel after channel
+            parts.append(f[:, first:last] @ values[rows[first:last] // channels])
+        return np.concatenate(parts)
+
     def among(self, samples: Int[np.ndarray, " k"], channels: int) -> Whitener:
         """The same for values of these samples alone, in increasing order; they hold all measured ones."""
         places = (np.searchsorted(samples, rows // channels) * channels + rows % channels for rows in self.rows)

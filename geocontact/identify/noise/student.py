@@ -26,11 +26,16 @@ level."""
 
 @dataclass(frozen=True)
 class StudentNoise:
-    """Degrees of freedom, scale, and what the residuals gain in logarithm of likelihood over a normal one [nats]."""
+    """Degrees of freedom, scale, and what the residuals gain in logarithm of likelihood over a normal one [nats].
+
+    `spread` is the gain's standard deviation over draws of as many residuals: that of a sum of what each gains (Vuong
+    1989, Econometrica 57:307).
+    """
 
     degrees: float
     scale: float
     gain: float
+    spread: float
 
     @property
     def words(self) -> str:
@@ -55,7 +60,7 @@ class StudentNoise:
 def student_noise(residuals: Float[np.ndarray, " n"]) -> StudentNoise:
     """The most likely of `DEGREES` and its scale; one that gains nothing where all residuals are 0."""
     if not residuals.any():
-        return StudentNoise(DEGREES[-1], 1.0, 0.0)
+        return StudentNoise(DEGREES[-1], 1.0, 0.0, 0.0)
     found = [_with_degrees(residuals, degrees) for degrees in DEGREES]
     return max(found, key=lambda one: one.gain)
 
@@ -73,6 +78,7 @@ def _with_degrees(residuals: Float[np.ndarray, " n"], degrees: float) -> Student
         if done:
             break
     constant = gammaln(0.5 * (degrees + 1.0)) - gammaln(0.5 * degrees) - 0.5 * np.log(np.pi * degrees * power)
-    heavy = len(squares) * constant - 0.5 * (degrees + 1.0) * float(np.log1p(squares / (degrees * power)).sum())
-    normal = -0.5 * len(squares) * (np.log(2.0 * np.pi * variance) + 1.0)
-    return StudentNoise(degrees, float(np.sqrt(power)), float(heavy - normal))
+    heavy = constant - 0.5 * (degrees + 1.0) * np.log1p(squares / (degrees * power))
+    normal = -0.5 * (np.log(2.0 * np.pi * variance) + squares / variance)
+    each = heavy - normal
+    return StudentNoise(degrees, float(np.sqrt(power)), float(each.sum()), float(np.sqrt(len(each)) * each.std()))

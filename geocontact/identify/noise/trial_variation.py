@@ -49,10 +49,10 @@ def variation(
     no variation.
     """
     sd = prior_sd.copy()
+    grams, mixed = np.array([trial.gram for trial in trials]), np.array([trial.mixed for trial in trials])
     for _ in range(rounds):
-        pairs = [_conditional(trial, sd) for trial in trials]
-        unsure = sum(np.diag(cov) for _, cov in pairs)
-        means = np.array([mean for mean, _ in pairs])
+        means, covariances = _conditional(grams, mixed, sd)
+        unsure = np.einsum("tqq->q", covariances)
         squares = unsure + ((means - spent * means.mean(axis=0)) ** 2).sum(axis=0)
         identified = 1.0 - unsure / np.maximum(len(trials) * sd**2, 1e-300)
         new = np.sqrt((weight * prior_sd**2 + squares) / (weight + len(trials) - spent * identified))
@@ -65,14 +65,14 @@ def variation(
 
 def deviations(trial: Products, sd: Float[np.ndarray, " q"]) -> Float[np.ndarray, " q"]:
     """Most likely deviation of one trial."""
-    return _conditional(trial, sd)[0]
+    return np.asarray(_conditional(trial.gram[None], trial.mixed[None], sd)[0][0])
 
 
 def _conditional(
-    trial: Products, sd: Float[np.ndarray, " q"]
-) -> tuple[Float[np.ndarray, " q"], Float[np.ndarray, "q q"]]:
-    """Mean and covariance of a trial's deviation given its residual."""
-    told, along = np.linalg.eigh(sd[:, None] * trial.gram * sd)
-    scaled = (along / (1.0 + np.maximum(told, 0.0))) @ along.T  # of I + sd gram sd, whatever its condition
-    covariance = sd[:, None] * scaled * sd
-    return covariance @ trial.mixed, covariance
+    grams: Float[np.ndarray, "n q q"], mixed: Float[np.ndarray, "n q"], sd: Float[np.ndarray, " q"]
+) -> tuple[Float[np.ndarray, "n q"], Float[np.ndarray, "n q q"]]:
+    """Mean and covariance of each trial's deviation given its residual."""
+    told, along = np.linalg.eigh(sd[:, None] * grams * sd)
+    shrunk = along / (1.0 + np.maximum(told, 0.0))[:, None, :]  # of I + sd gram sd, whatever its condition
+    covariances = sd[:, None] * (shrunk @ along.transpose(0, 2, 1)) * sd
+    return (covariances @ mixed[..., None])[..., 0], covariances

@@ -65,18 +65,22 @@ class QuadraticModel:
     ) -> Float[np.ndarray, " p"]:
         """The step between `low` and `high` that the damped model gains most by: an active-set search from no step."""
         out, free = np.zeros(len(low)), self.free.copy()
-        own = np.diag(self.curvature)
-        damped = self.curvature + np.diag(damping * own + ROUNDING * max(float(own.max()), 1e-300))
+        own, damped = self.curvature.diagonal(), self.curvature.copy()
+        damped.ravel()[:: len(low) + 1] += damping * own + ROUNDING * max(float(own.max()), 1e-300)
+        pull = self.gradient
         for _ in range(LIMIT):
-            pull = self.gradient + damped @ out
-            move = np.zeros(len(low))
-            move[free] = -np.linalg.solve(damped[np.ix_(free, free)], pull[free])
+            if free.all():
+                move = -np.linalg.solve(damped, pull)
+            else:
+                move = np.zeros(len(low))
+                move[free] = -np.linalg.solve(damped[np.ix_(free, free)], pull[free])
             ends = np.where(move > 0.0, high, low)
             room = np.divide(ends - out, move, out=np.full(len(low), np.inf), where=move != 0.0)
             first = int(np.argmin(room))
             if room[first] < 1.0:
                 out = out + room[first] * move
                 out[first], free[first] = ends[first], False
+                pull = self.gradient + damped @ out
                 continue
             out = out + move
             pull = self.gradient + damped @ out
