@@ -37,6 +37,7 @@ KEPT = Path(__file__).resolve().parents[1] / "results" / "gap_growth.json"
 SIZES = (600, 2_000, 10_000, 100_000)
 TRIALS = ("t01", "t02", "t03", "t04", "t05")
 SEED = 61
+LOADED = 20.0  # N, below which no centre of pressure is recorded
 WAVES = 24  # of an input, at frequencies drawn anew for each: a movement that does not repeat
 
 
@@ -99,11 +100,13 @@ class Subject:
         return Trial("", Signals(time, values, tuple(columns), tuple(self.units[name] for name in columns)))
 
     def recorded(self, rng: np.random.Generator, model: System, time: np.ndarray, inputs: Mapping[str, Any]) -> Trial:
-        """One trial: stiffnesses vary by 2 %, white noise in all channels."""
+        """One trial: stiffnesses vary by 2 %, white noise in all channels; a quotient's grows as 1 over its divisor."""
         own = {name: value * (1.0 + 0.02 * rng.standard_normal()) for name, value in self.true.items()}
         clean = model.simulate(self.trial(time, inputs, {}), {**own, **self.amplitudes})
         columns = dict(zip(model.outputs, clean.T, strict=True))
-        noisy = {name: y + self.noise[name] * rng.standard_normal(len(time)) for name, y in columns.items()}
+        under = np.maximum(columns["force_y"], LOADED) if "cop_x" in columns else np.ones(len(time))
+        sizes = {name: self.noise[name] * (np.median(under) / under if name == "cop_x" else 1.0) for name in columns}
+        noisy = {name: y + sizes[name] * rng.standard_normal(len(time)) for name, y in columns.items()}
         seen = {name: x + self.input_noise[name] * rng.standard_normal(len(time)) for name, x in inputs.items()}
         return self.trial(time, seen, noisy)
 

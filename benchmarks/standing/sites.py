@@ -270,7 +270,7 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
     from geocontact.dynamics.collocation.solve import SolverOptions
     from geocontact.standing_up.calibrated_phase import PhaseSearch, calibrated_phase
     from geocontact.standing_up.chain import FOOT_PARAMETERS
-    from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
+    from geocontact.standing_up.contact_numbers import held_covariance, prior_covariance
     from geocontact.standing_up.exoskeleton import strapped
     from geocontact.standing_up.phases import phase_a, phase_b
 
@@ -282,7 +282,7 @@ def both_phases(study: Any, trials: Any, nodes: float) -> dict[str, dict[str, fl
         return phase_a(model, study.subject, given, study.noise, free=study.free, tracks=tracks, start=start)
 
     held = [each.name for each in FOOT_PARAMETERS if each.name not in study.free]
-    believed = believed_covariance(model.parameters, held)
+    believed = prior_covariance(model.parameters, held)
     first = calibrated_phase("A", model, trials, study.noise, build_a, search, held=believed)
     feet, free = first.found.p[: len(FOOT_PARAMETERS)], [name for site in study.sites for name in site.names]
 

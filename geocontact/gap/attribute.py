@@ -1,4 +1,4 @@
-"""Which effect: mistakes in the data first, then every candidate inside the simulator, pairs, and what is left over."""
+"""Which effect: mistakes in the data first, then candidates inside the simulator, pairs, and what is unexplained."""
 
 from __future__ import annotations
 
@@ -201,7 +201,7 @@ def _contest(
 def _answered(
     problem: Problem, data_error: DataError | None, clean: Problem, contest: Contest, at: Listener
 ) -> Attribution:
-    """The verdict on a contest: what may be named, and what is left over."""
+    """The verdict on a contest: what may be named, and what stays unexplained."""
     base, contenders, leader = contest.base, contest.contenders, contest.leader.judged
     shares = {c.label: calibration_share(clean, changes(clean, base, c)) for c in contenders}
     at("whether held-out trials are predicted better")

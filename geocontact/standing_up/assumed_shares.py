@@ -8,7 +8,7 @@ deviation of each ln σ, errors of what is given move the answer with the covari
 
     (dp/dy) C (dp/dy)ᵀ + s² Σ_g (dp/dln σ_g) (dp/dln σ_g)ᵀ
 
-to first order, which adds to Laplace's. Sizes of the jerk are believed within a factor `JERK_KNOWN`, those of the foot,
+to first order, which adds to Laplace's. Sizes of the jerk are assumed within a factor `JERK_KNOWN`, those of the foot,
 of the person's joints and of the exoskeleton's hinges each by itself: a light exoskeleton follows its straps with
 another jerk than the person, and neither is white. Of a rise that a feedback controller drives instead of least jerk
 the hinges' jerk was 100 to 200 rad/s³ and the person's joints' 9 to 24, where 60 are taken for both.
@@ -28,7 +28,7 @@ from geocontact.standing_up.chain import COORDINATES
 from geocontact.standing_up.phase import PhaseProblem
 
 JERK_KNOWN = 2.0
-"""Factor within which the size of the jerk is believed, as one standard deviation; invented."""
+"""Factor within which the size of the jerk is assumed, as one standard deviation; invented."""
 FEET = 3
 """Coordinates of the foot, which come first."""
 

@@ -9,7 +9,7 @@ difference would settle it; where it does not, squares count for too much, and d
 uncertainties are multiplied by its root elsewhere (Birge (1932), The calculation of errors by the method of least
 squares, Phys Rev 40, 207-227).
 
-So a phase is solved once more, from what is believed, where its answer can be doubted: a number that is sought ends on
+So a phase is solved once more, from the prior, where its answer can be doubted: a number that is sought ends on
 its bound, or the misfit is larger than `DOUBTFUL`. The least of both is the answer. Another minimum within `RIVAL` of
 it stays possible: a number that it puts outside the interval is not separable, and the interval covers both.
 """
@@ -148,8 +148,8 @@ def _with_rivals(of: ContactParameter, number: ContactNumber, off: Sequence[floa
 
 
 def _same(phase: PhaseProblem, one: CollocationResult, other: CollocationResult) -> bool:
-    believed = np.array([each.sd for each in phase.parameters])
-    return bool((np.abs(one.p - other.p) <= SAME_PLACE * believed).all())
+    spread = np.array([each.sd for each in phase.parameters])
+    return bool((np.abs(one.p - other.p) <= SAME_PLACE * spread).all())
 
 
 Run = tuple[PhaseProblem, CollocationResult]
@@ -167,7 +167,7 @@ class PhaseSearch:
     nodes
         Intervals a second where the search starts; those that leave too much of the balance are halved.
     starts
-        Further starts, drawn from what is believed; where the answer can be doubted one more starts there.
+        Further starts, drawn from the prior; where the answer can be doubted one more starts there.
     resamples
         Calibrations of trials that the answer makes; 0 or 1 for none.
     level
@@ -251,7 +251,7 @@ def calibrated_phase(
 ) -> CalibratedPhase:
     """Solve what `build` makes of trials and of where the parameters start (None: where the phase itself says).
 
-    `held` is the covariance of parameters that the phase holds at what is believed or at what another one found.
+    `held` is the covariance of parameters that the phase holds at the prior or at what another one found.
     """
     even = tuple(np.linspace(0.0, 1.0, round(search.nodes * float(t.time[-1])) + 1) for t in trials)
 
@@ -299,7 +299,7 @@ def _least(runs: Sequence[Run]) -> Run:
 
 
 def _begun(phase: PhaseProblem, trials: Sequence[StandingTrial], build: Build, search: PhaseSearch) -> PhaseProblem:
-    """One that starts at what is believed; where the search started there by itself, drawn from it."""
+    """One that starts at the prior; where the search started there by itself, drawn from it."""
     middle = usual(phase.parameters)
     begun = build(trials, middle)
     if np.allclose(begun.control.guess_p, build(trials, None).control.guess_p):

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from geocontact.dynamics.collocation.solve import Progress
 from geocontact.standing_up.calibrated_phase import INTERRUPTED, CalibratedPhase, PhaseSearch, calibrated_phase
 from geocontact.standing_up.chain import FOOT_PARAMETERS, feet_on_ground
-from geocontact.standing_up.contact_numbers import believed_covariance, held_covariance
+from geocontact.standing_up.contact_numbers import held_covariance, prior_covariance
 from geocontact.standing_up.exoskeleton import strapped
 from geocontact.standing_up.numbers_that_ran import (
     Ran,
@@ -57,7 +57,7 @@ def calibrated_phases(
     every = [each.name for each in FOOT_PARAMETERS]
 
     def held_in_a(free: Sequence[str]) -> Float[np.ndarray, "p p"]:
-        return believed_covariance(model.parameters, [name for name in every if name not in free])
+        return prior_covariance(model.parameters, [name for name in every if name not in free])
 
     first = _phase("A", model, given, build_a, (given.free, every), search, in_phase_a, held_in_a)
     if not given.exoskeleton or not first.found.solved:
@@ -72,7 +72,7 @@ def calibrated_phases(
     known = held_covariance(first.numbers, first.phase.parameters)
 
     def held_in_b(free: Sequence[str]) -> Float[np.ndarray, "p p"]:
-        return np.asarray(known + believed_covariance(model.parameters, [name for name in straps if name not in free]))
+        return np.asarray(known + prior_covariance(model.parameters, [name for name in straps if name not in free]))
 
     second = _phase("B", model, given, build_b, (straps, straps), search, in_phase_b, held_in_b)
     return first, second

@@ -117,7 +117,7 @@ FOOT_PARAMETERS = (
     ContactParameter("friction", "-", 1.0, 0.3, 0.1, 5.0, logarithm=True),
 )
 """Parameters of both spheres: modulus, places of the centres ahead of the ankle, how far they reach below it, radius,
-dissipation, factor of the friction. What is believed of them is invented. The height of the centres instead of their
+dissipation, factor of the friction. Their prior is invented. The height of the centres instead of their
 lowest points would be one number with the radius: estimates of the two had a correlation of 0.994."""
 LAW = ("stiffness", "heel", "toe")
 """What is free where the others are known."""

@@ -1,4 +1,4 @@
-"""What trials tell of each parameter of a contact: value, interval, and whether it is known or only believed.
+"""What trials tell of each parameter of a contact: value, interval, and whether it is known or only assumed.
 
 Motion and parameters are sought together. Where the motion can follow the noise of the plate, the parameters go along,
 and always in the same sense, however many samples there are: the mode of the joint posterior is not that of the
@@ -116,7 +116,7 @@ class ContactNumber:
     value, lower, upper
         In `unit`; of the interval, not a number where there is none.
     before, after
-        Standard deviation of what is searched, as believed and with the trials; `after` is infinite on a bound.
+        Standard deviation of what is searched, of the prior and with the trials; `after` is infinite on a bound.
     verdict
         "known": the trials at least halve the prior's deviation. "prior-dominated": they do not. "held": it was not
         sought. "on its bound": the search wanted to go on, so that the value says where the bound is. "not separable":
@@ -154,9 +154,9 @@ class ContactNumbers:
     correlation
         Of those that are sought and on no bound, in their order: `names`.
     told_apart
-        By the trials alone, without what is believed; None where fewer than two are sought.
+        By the trials alone, without the prior; None where fewer than two are sought.
     directions
-        How often more sharply than believed the trials alone tell the combinations that they tell best to worst: ratio
+        How often more sharply than the prior the trials alone tell the combinations that they tell best to worst: ratio
         of standard deviations; below 1 the belief is all there is.
     """
 
@@ -176,10 +176,10 @@ def contact_numbers(
 ) -> ContactNumbers:
     """Values and intervals of a phase that was solved.
 
-    Intervals are Laplace's: the curvature of the cost at its least, with what is believed in it. With resampled trials
+    Intervals are Laplace's: the curvature of the cost at its least, with the prior in it. With resampled trials
     the bias that they show is taken off, and the intervals are widened for its own error. With the covariance of what
     is `held` they have the shares of it and of the sizes of the jerk as well. A number on its bound may lie inside: it
-    counts as held there, with what is believed of it, and its neighbours have its share.
+    counts as held there, with its prior, and its neighbours have its share.
 
     ValueError where the curvature does not exist.
     """
@@ -233,8 +233,8 @@ def _assumed(
     return shares.sd if held is not None else np.asarray(np.sqrt(np.diag(shares.held)))
 
 
-def believed_covariance(parameters: Sequence[ContactParameter], names: Collection[str]) -> Float[np.ndarray, "p p"]:
-    """Prior covariance of what is searched, where a phase holds its numbers at what is believed: of `na."""
+def prior_covariance(parameters: Sequence[ContactParameter], names: Collection[str]) -> Float[np.ndarray, "p p"]:
+    """Prior covariance of what is searched, where a phase holds its numbers at the prior: of `names`."""
     return np.diag([each.sd**2 if each.name in names else 0.0 for each in parameters])
 
 
@@ -253,8 +253,8 @@ def corrected(phase: PhaseProblem, found: CollocationResult, again: Resampled | 
 def held_covariance(of: ContactNumbers, parameters: Sequence[ContactParameter]) -> Float[np.ndarray, "p p"]:
     """Covariance of what is searched, as a phase that held them afterwards has to take it: of the numbers.
 
-    What the trials tell counts by their interval and correlation; what they do not (held there, or on a bound) by what
-    is believed of it.
+    What the trials tell counts by their interval and correlation; what they do not (held there, or on a bound) by
+    its prior.
     """
     sizes = [
         n.after if n.verdict in (*WITH_INTERVAL, "not separable") else of_n.sd
@@ -286,7 +286,7 @@ def _together(
     sd = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(sd, sd)
     belief = np.array([each.sd for each in kept])
-    # in parts of what is believed, the trials' own information is the whole less 1
+    # in parts of the prior, the trials' own information is the whole less 1
     scaled = np.linalg.inv(covariance / np.outer(belief, belief)) - np.eye(len(kept)) if len(kept) else covariance
     values, vectors = np.linalg.eigh(scaled)
     sharp = np.sqrt(np.maximum(values, 0.0))

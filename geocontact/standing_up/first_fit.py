@@ -2,7 +2,7 @@
 
 Along smoothed coordinates the plate's force and centre follow from the parameters alone, without any dynamics. What the
 smoothing leaves of the errors of the foot's height makes many newtons, so that this is a start and no estimate. From
-what is believed alone some searches of three trials ended elsewhere, with the spheres on a bound.
+the prior alone some searches of three trials ended elsewhere, with the spheres on a bound.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ def first_fit(
     tracks: Sequence[str],
     held: Float[np.ndarray, " p"] | None = None,
 ) -> Float[np.ndarray, " p"]:
-    """Parameters that fit force and centre best, what is believed of them counted once.
+    """Parameters that fit force and centre best, their prior counted once.
 
     Parameters
     ----------
     smooth
         Coordinates of each trial at times from its own start on.
     free, tracks
-        Names of what is sought and of the channels that there are; what is believed where neither force nor centre is.
+        Names of what is sought and of the channels that there are; the prior where neither force nor centre is.
     held
         Values of what is not sought, unless usual.
     """

@@ -84,7 +84,7 @@ def parameter_numbers(
 
 
 def belief_numbers(phase: PhaseProblem, prefix: str = "") -> list[Ran]:
-    """What is believed of each parameter that is sought, and its bounds."""
+    """Prior of each parameter that is sought, and its bounds."""
     rows = []
     for each in phase.parameters:
         if each.name in phase.free:

@@ -1,7 +1,7 @@
-"""A phase of the study as a control problem: what is tracked, what is kept small, what is believed.
+"""A phase of the study as a control problem: what is tracked, what is kept small, what is assumed beforehand.
 
-Each deviation counts in parts of its noise and in proportion to the samples a second, so that the cost, with what is
-believed of the parameters, is minus twice the logarithm of the joint posterior of motion and parameters over `RATE`.
+Each deviation counts in parts of its noise and in proportion to the samples a second, so that the cost, with the prior
+of the parameters, is minus twice the logarithm of the joint posterior of motion and parameters over `RATE`.
 Jerk is beside it as white noise of a size that standing up has; that weight is ours, the study's are not printed. The
 ground's and the strap's forces follow from the states; in the study they are controls that are held to the laws.
 """
@@ -265,7 +265,7 @@ def _bounds(
 
 
 def belief(p: SX, parameters: Sequence[ContactParameter], free: Sequence[str]) -> SX:
-    """What is believed of the free parameters beforehand, as the cost counts it."""
+    """Prior of the free parameters, as the cost counts it."""
     from casadi import SX
 
     middle, total = usual(parameters), SX(0)

@@ -91,7 +91,7 @@ def phase_b(
     feet
         What is searched of the feet's parameters, as phase A found it.
     start
-        Where the search of the strap's parameters starts, unless at what is believed.
+        Where the search of the strap's parameters starts, unless at the prior.
     """
     held = np.r_[feet, usual(model.parameters[len(feet) :])]
     begin = held if start is None else np.r_[feet, start]

@@ -1,8 +1,7 @@
 """Sites of straps between exoskeleton and person, and numbers of contacts with their bounds and priors.
 
 A mat lies on one leg, both legs are one chain: at thigh and shank two straps act in parallel, and numbers and forces
-are those of one of them. The module at the pelvis is one, and mats on it see all of it. All that is believed is
-invented.
+are those of one of them. The module at the pelvis is one, and mats on it see all of it. All priors are invented.
 """
 
 from __future__ import annotations
@@ -78,7 +77,7 @@ def deviations(
 
 
 def usual(parameters: Sequence[ContactParameter]) -> Vector:
-    """Where a search starts: what is believed."""
+    """Where a search starts: at the prior."""
     return searched(parameters, [each.usual for each in parameters])
 
 

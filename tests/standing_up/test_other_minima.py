@@ -24,8 +24,8 @@ from geocontact.standing_up.chain import FOOT_PARAMETERS, SOUGHT_WORN, Subject, 
 from geocontact.standing_up.contact_numbers import (
     ContactNumber,
     ContactNumbers,
-    believed_covariance,
     held_covariance,
+    prior_covariance,
 )
 from geocontact.standing_up.exoskeleton import with_exoskeleton
 from geocontact.standing_up.phases import phase_a
@@ -131,7 +131,7 @@ def test_trials_of_another_model_do_not_end_on_the_bound_of_the_modulus() -> Non
     model = with_exoskeleton(subject)
     trials = [with_noise(each, model, noise, 102) for each in own_trials(world, [2])]
     search = PhaseSearch(SolverOptions("radau", 3, 1, 1e-7, 200, 120.0), nodes=10.0)
-    believed = believed_covariance(model.parameters, ())
+    believed = prior_covariance(model.parameters, ())
     found = calibrated_phase(
         "A",
         model,

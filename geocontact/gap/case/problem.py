@@ -38,7 +38,7 @@ class Problem:
     layouts
         Of the calibration trials, then of the evaluation trials.
     beliefs
-        What was believed of the noise levels.
+        Prior of the noise levels.
     usual
         Usual standard deviation, from trial to trial, of each free base parameter, then of each column of `placement`.
     placement
@@ -100,7 +100,7 @@ class Problem:
 
     @property
     def floor_of_noise(self) -> Float[np.ndarray, " c"]:
-        """Noise of each channel as it was believed beforehand: a scale, no estimate."""
+        """Prior noise of each channel: a scale, no estimate."""
         return self.beliefs.middle.sensors
 
     def weighed(self, model: Refit, before: Noise | None = None, others: Sequence[Noise] = ()) -> Noise:
@@ -165,7 +165,7 @@ class Problem:
         ]
 
     def seen_variation(self, model: Refit, levels: NoiseLevels) -> Float[np.ndarray, " q"]:
-        """How much all trials do differ, little believed beforehand, around parameters that were fitted to all."""
+        """How much all trials differ, with a wide prior, around parameters that were fitted to all."""
         found = variation(self._products(self._whiteners(levels), model), self.usual, 1.0, spent=1.0)
         return np.asarray(np.minimum(found, DEVIATIONS * self.usual))
 
@@ -211,7 +211,7 @@ def filled(part: Float[np.ndarray, "k ..."], samples: Int[np.ndarray, " k"], cou
 def floor_of(problem: Problem, noise: Noise, model: Refit) -> Float[np.ndarray, " c"]:
     """Root mean square of what no model can predict, per channel: noise, noise of inputs, trial-to-trial variation.
 
-    Never more than what the model misses on the calibration trials, which holds all of it: variation is believed to be
+    Never more than what the model misses on the calibration trials, which holds all of it: variation is assumed to be
     as large as is usual while few trials tell, and may be hundreds of newtons where a millimetre is that stiff.
     """
     squares, missed, counts = np.zeros_like(problem.floor), np.zeros_like(problem.floor), np.zeros_like(problem.floor)

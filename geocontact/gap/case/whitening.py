@@ -143,15 +143,15 @@ def usual_levels(
     most: Mapping[str, float],
     growth: Float[np.ndarray, " c"],
 ) -> NoisePriors:
-    """What is believed of the noise before the residuals are looked at.
+    """Prior of the noise, before the residuals are looked at.
 
     The noise that a case tells is split evenly between white and quick coloured noise; where it tells none, `rough`
-    stands in and is believed half as well. All is known to a factor of two. Quick noise remembers a few samples, slow
+    stands in, with twice the spread. All is known to a factor of two. Quick noise remembers a few samples, slow
     noise some tens. What grows with the signal is as much as the recording shows (`growth`, per unit of it), and
     little at the least. Inputs are known as well as their spectra show (`seen`), 0.2 % of their half-range at the least
     unless `most` is less, and those of one unit about equally well, since they come from the same markers; what is
-    stated of one is believed. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
-    twice what is believed, or than `most` (a tenth of the 0.2 % at the least); nothing more is believed of it
+    stated of one is taken. A sensor is hardly noisier than `SENSOR_LOUDER` times what was stated, an input than
+    twice its prior, or than `most` (a tenth of the 0.2 % at the least); nothing more is assumed of it
     than that.
     """
     known = np.array([name in stated for name in system.outputs])

@@ -141,7 +141,7 @@ def remaining_nats(confounder: Hypothesis, recordings: Sequence[SimulatedTrials]
     roots = [float(np.sqrt(one.times)) for one in recordings]
     first = searches[0]
     start = np.array([confounder.values[p.name] for p in first.parameters]) / first.scale
-    believed = np.divide(first.scale, confounder.spread, out=np.zeros(len(start)), where=confounder.spread > 0.0)
+    weight = np.divide(first.scale, confounder.spread, out=np.zeros(len(start)), where=confounder.spread > 0.0)
 
     def whitened(parts: list[list[Float[np.ndarray, "_ c p"]]]) -> Float[np.ndarray, "n p"]:
         rows = [
@@ -153,11 +153,11 @@ def remaining_nats(confounder: Hypothesis, recordings: Sequence[SimulatedTrials]
 
     def residual(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, " n"]:
         off = whitened([[r[..., None] for r in one.residuals(z.tobytes())] for one in searches])[:, 0]
-        return np.concatenate([off, believed * (z - start)])
+        return np.concatenate([off, weight * (z - start)])
 
     def slope(z: Float[np.ndarray, " p"]) -> Float[np.ndarray, "n p"]:
         moved = -whitened([one.slopes(z.tobytes()) for one in searches]) * first.scale
-        return np.concatenate([moved, np.diag(believed)])
+        return np.concatenate([moved, np.diag(weight)])
 
     inside = np.clip(start, first.lower + 1e-6, first.upper - 1e-6)
     bounds = (first.lower, first.upper)

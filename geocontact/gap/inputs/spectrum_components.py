@@ -4,14 +4,14 @@ S = A exp(-(f/b)^q) + B/(1 + (f/f_t)^4)² + N H²(f) + R, by Whittle's likelihoo
 B 15:125). The first term is a movement that falls off with frequency. The second, for which half of SURE nats must
 speak, is the tail of one that is put together of pieces: where its third derivative jumps, the power falls off with the
 eighth power of the frequency (Bracewell, The Fourier Transform and Its Applications, 2000, ch. 8). H² is the filter
-(`identify.signals.low_pass`), R rounding. Noise much higher or lower than usual is believed less, and so is a rest that
+(`identify.signals.low_pass`), R rounding. Noise much higher or lower than usual is less probable, and so is a rest that
 is higher than rounding, so that noise which nobody filtered is not taken for it.
 
 Motion is slow; above its own frequencies a recording holds noise up to the corner of the filter and little beyond it.
 The spectrum of every input is taken apart into movement, noise and a white rest (`gap/inputs/spectrum_components.py`),
 with one f_c for all inputs that were filtered. Frequencies are in cycles per sample: 6 Hz of motion capture at 100 Hz
-are 0.06. Corners far from the usual one are believed less: where the movement hides the noise, f_c stays near that.
-Usually all inputs were filtered, or none; that some were and others not is believed least.
+are 0.06. Corners far from the usual one are less probable: where the movement hides the noise, f_c stays near that.
+Usually all inputs were filtered, or none; that some were and others not is least probable.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ NOTHING = -2.0 * float(np.log(np.finfo(float).eps))  # nats below the top at whi
 
 @dataclass(frozen=True)
 class Split:
-    """For each filter: Whittle's -log likelihood with what was believed, and the noise after the filter.
+    """For each filter: Whittle's -log likelihood with the prior, and the noise after the filter.
 
     `noise` is its standard deviation, in the input's unit.
     """
@@ -122,7 +122,7 @@ class Parts:
     part
         That each filter lets through of white noise.
     usual
-        Logarithm of the power that noise before each filter is believed to have.
+        Logarithm of the prior power of the noise before each filter.
     rounding
         Logarithm of the power of rounding.
     """

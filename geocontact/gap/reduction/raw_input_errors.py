@@ -181,7 +181,7 @@ def from_all_trials(
 ) -> tuple[Float[np.ndarray, " p"], Float[np.ndarray, "p p"]]:
     """How parameters and discrepancies move when the held-out trials tell of them too, and their covariance then.
 
-    Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are believed to lie.
+    Nothing that is fitted is reported of a trial it was fitted to; this is where the true values are estimated to lie.
     Trials vary as much as they are seen to, so that few of them tell less than many samples would.
     """
     noise = replace(after.noise, varies=varies)

@@ -100,7 +100,7 @@ def ranking(
     shares
         Calibration trials' part of what each changes, by label.
     variants
-        How many candidates each effect has: they share what is believed of it beforehand.
+        How many candidates each effect has: they share its prior.
     """
     contenders = [c for c in contenders if np.isfinite(c.nats)]
     single = [c for c in contenders if len(c.candidates) == 1]
@@ -127,10 +127,10 @@ def answer(held: Ranking, unnamed: float, odd: float, rest: float, little: float
         What a surrogate for anything unknown gains over the base [nats].
     odd
         Part of the squared error that is something odd for sure, 0 … 1. Its odds, over those of the part that may be
-        left over (LEFT_OVER), are the weight that something unknown is given besides, over all other weights together.
+        unexplained (LEFT_OVER), are the weight of something unknown over all other weights together.
     rest
         What the surrogate gains on top of the best contender [nats]. What is there beside an effect is there without
-        it as well: no more of it is believed than what it gains over the base.
+        it as well: no more of it counts than what it gains over the base.
     little
         What a known effect gains that is too small to be named [nats]. What it explains is nothing unknown.
     """
