@@ -73,6 +73,10 @@ class Meant:
         return [f"{c.commit}: {c.why}" for c in self.changes if any(fnmatch(file, one) for one in c.files)]
 
 
+FRAME = re.compile(r"_\d+(?=\.vtp$)")
+"""Number of a frame, at the end of its file's name."""
+
+
 @dataclass
 class Verdict:
     """Of one file: outcome; numbers compared, different, no longer there, new; and the largest relative difference."""
@@ -132,8 +136,20 @@ def figures(runs: Mapping[str, Mapping[str, Verdict]], count: Mapping[str, int])
         one: dict[str, Any] = {"outcome": worst(files), "files": len(files), BYTE: bytewise(files)}
         unequal = {name: f for name, f in files.items() if f.outcome in (DIFFERS, MISSING)}
         if unequal:
-            one["differ"] = {name: _plain(f) for name, f in unequal.items()}
+            one["differ"] = _by_series(unequal)
         kept["outcomes"][run] = one
+    return kept
+
+
+def _by_series(unequal: Mapping[str, Verdict]) -> dict[str, Any]:
+    """Files that differ; frames of one series are one entry, with the one that differs most and how many do."""
+    series: dict[str, list[Verdict]] = {}
+    for name, found in unequal.items():
+        series.setdefault(FRAME.sub("_*", name), []).append(found)
+    kept = {}
+    for name, those in series.items():
+        most = max(those, key=lambda one: (one.outcome == MISSING, one.of_column))
+        kept[name] = _plain(most) | ({"files": len(those)} if len(those) > 1 else {})
     return kept
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -189,36 +190,45 @@ def test_what_was_meant_is_of_runs_that_are_there() -> None:
 def test_the_page_has_the_kept_comparison() -> None:
     """Runs without a difference and largest differences of the page are those of the results that are kept."""
     root = Path(__file__).parents[2]
-    figures = json.loads((root / "benchmarks/results/same_numbers.json").read_text("utf-8"))["figures"]
-    page = (root / "docs/reference/accuracy.md").read_text("utf-8")
+    kept = json.loads((root / "benchmarks/results/same_numbers.json").read_text("utf-8"))
+    figures, page = kept["figures"], (root / "docs/reference/accuracy.md").read_text("utf-8")
     counts, outcomes = figures["runs"], figures["outcomes"]
-    assert f"{sum(counts.values()) - 1} runs at" in page  # the inputs are no run
-    assert f"; {len(figures['not compared'])} runs, most of" in page
-    assert f"| {counts[BYTE] + counts[EQUAL] - 1} | none |" in page and outcomes["inputs"]["outcome"] == BYTE
-    differ = {run: one["differ"].values() for run, one in outcomes.items() if "differ" in one}
-    most = {run: max(each["of_column"] for each in files) for run, files in differ.items()}
+    assert not figures["not compared"]
+    asked = kept["asked"]
+    assert f"All {sum(counts.values()) - 1} runs of" in page and f"at {asked['before']} and {asked['after']} (" in page
+    differ = {run: one["differ"] for run, one in outcomes.items() if one["outcome"] == DIFFERS}
+    assert f"| {len(outcomes) - 1 - len(differ)} | none |" in page and "differ" not in outcomes["inputs"]
+    assert all(each["why"] for files in differ.values() for each in files.values())
+    most = {run: max(each.get("of_column") or 0.0 for each in files.values()) for run, files in differ.items()}
     shoulders = [f"shoulder_{name}" for name in ("simulate", "half", "study", "compare")]
     assert max(most[name] for name in shoulders) <= 2e-10 and most["shoulder_led"] <= 0.003
     areas = [name for name in most if name.startswith(("area", "cohort", "demo"))]
-    assert len(areas) == 7 and len(most) == len(areas) + len(shoulders) + 2
+    assert len(areas) == 7
     for name in areas:
-        for file in differ[name]:
-            before, after = (float(part) for part in file["at"].rpartition(": ")[2].split(" → "))
-            assert file["largest"] <= 5.1e-12 or abs(before - after) <= 2e-15
+        for file in differ[name].values():
+            assert file["largest"] <= 5.1e-12 or _apart(file) <= 2e-15
+    gaps = {name for name in most if name.startswith("gap_")}
+    moved = {"gap_joint", "gap_confuse_foot"}
+    tied = "figures.elbow.regression"  # a peer whose two best are as good as each other
+    for name in gaps - moved:
+        for file in differ[name].values():
+            little = (file.get("of_column") or 0.0) <= 3.1e-7 or _apart(file) <= 1e-16
+            assert little or file["at"].startswith(tied), name
+    assert len(gaps - moved) == 8
+    standing = {name for name in most if name.startswith("standing_")}
+    assert len(standing) == 5 and max(most[name] for name in standing - {"standing_predict"}) <= 0.04
+    numbers = [
+        file["of_column"]
+        for name in standing
+        for path, file in differ[name].items()
+        if file.get("of_column") and not path.endswith(("certificate.csv", "run.json"))
+    ]
+    assert max(numbers) <= 5.4e-5
+    rest = {"shoulder_led", "shoulder_optimise", "joint", "app", "thickness"}
+    assert set(most) == {*shoulders, *areas, *gaps, *standing, *rest}
 
 
-def test_the_rest_differs_where_it_was_meant() -> None:
-    """The later comparison: what differs besides rounding are bounds of open loops and names of segments."""
-    root = Path(__file__).parents[2]
-    kept, rest = (
-        json.loads((root / f"benchmarks/results/{name}.json").read_text("utf-8"))
-        for name in ("same_numbers", "same_numbers_rest")
-    )
-    outcomes = rest["figures"]["outcomes"]
-    later = set(outcomes) & set(kept["figures"]["not compared"])
-    page = (root / "docs/reference/accuracy.md").read_text("utf-8")
-    assert f"Of these, {len(later)} are equal at {rest['asked']['after']} " in page
-    differ = {run for run, one in outcomes.items() if "differ" in one} & later
-    assert {run.partition("_")[0] for run in differ} == {"standing"}
-    files = {file for run in differ for file in outcomes[run]["differ"]}
-    assert {file.rpartition("/")[2] for file in files} == {"certificate.csv", "study.toml"}
+def _apart(file: Mapping[str, Any]) -> float:
+    """Difference of the two numbers of a file that differ most, of themselves."""
+    before, after = (float(part) for part in file["at"].rpartition(": ")[2].split(" → "))
+    return abs(before - after)
