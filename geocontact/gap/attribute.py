@@ -133,6 +133,7 @@ def _attributed(
     if heavy.channels:
         at("the same with heavy tails of the noise")
         weighed = replace(heavy.weighed(clean), noise=held.base.judged.noise)
+        del held  # its models are large
         problem, clean = weighed if clean is problem else problem, weighed
         held = _contest(clean, data_error, heavy, ends, offer, case, at)
     return replace(_answered(problem, data_error, clean, held, at), heavy=heavy.channels, stated=with_rounding(case))
