@@ -158,7 +158,8 @@ def _plain(found: Verdict) -> dict[str, Any]:
     if found.outcome == MISSING:
         return {"outcome": MISSING, "why": found.why}
     counts = {"numbers": found.numbers, "different": found.different, "gone": found.gone, "new": found.new}
-    most = {"largest": float(f"{found.largest:.3g}"), "of_column": float(f"{found.of_column:.3g}"), "at": found.at}
+    sizes = {"largest": float(f"{found.largest:.3g}"), "of_column": float(f"{found.of_column:.3g}")}
+    most = sizes | {"at": found.at.removeprefix("/")}  # a column of a motion is named like a path
     return {**counts, **(most if found.different else {}), "why": found.why}
 
 
