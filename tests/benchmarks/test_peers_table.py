@@ -141,10 +141,20 @@ def test_figures_of_the_page_are_those_of_the_results() -> None:
     assert 1.75 < min(slower) < 1.85 and round(max(slower)) == 6
     for text in (page, (ROOT / "README.md").read_text(encoding="utf-8")):
         assert "take 1.8 to 6 times as long" in text
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    medians = {
+        (side, key): [f"{np.median(job[side][key]):.2f}" for job in told["jobs"]]
+        for side in ("ours", "peer")
+        for key in ("whole", "again")
+    }
+    assert f"| whole command | {' | '.join(medians['ours', 'whole'])} |" in readme
+    assert f"| script with OpenSim, scipy | {' | '.join(medians['peer', 'whole'])} |" in readme
+    both = zip(medians["ours", "again"], medians["peer", "again"], strict=True)
+    assert f"| the job again / peer again | {' | '.join(map(' / '.join, both))} |" in readme
     found = {row["engine"].replace(",", "").split()[0]: row["ratio"] for row in told["distances"]}
     words = {"warp": "warp 2.3", "fcpw": "fcpw 3.6", "libigl": "libigl 34", "open3d": "open3d 35", "VTK": "VTK 213"}
     for name, said in words.items():
-        assert said.replace("\n", " ") in page.replace("\n", " ")
+        assert said.replace("\n", " ") in page.replace("\n", " ") and said in readme
         assert float(said.split()[1]) == pytest.approx(found[name], rel=0.03)
 
 
