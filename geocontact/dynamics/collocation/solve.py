@@ -312,8 +312,6 @@ def _settings(o: SolverOptions, warm: bool, multipliers: bool, seconds: float) -
         "max_iter": o.iterations,
         "max_cpu_time": seconds,
         "linear_solver": "mumps",
-        "mumps_pivot_order": 0,  # minimum degree: intervals stand in a row
-        "mumps_permuting_scaling": 0,
         "mumps_mem_percent": 100,
         "print_level": 0,
         "sb": "yes",
