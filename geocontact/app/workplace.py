@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from nicegui import background_tasks, ui
 from nicegui.element import Element
@@ -199,6 +199,7 @@ class Workplace:
             ui.run_javascript(f"keep({json.dumps(self._keep(kept))})")
 
 
+@runtime_checkable
 class RunPlace(Protocol):
     """A page that shows runs: the element for them, their queue, and where the page of a result is shown."""
 
