@@ -100,12 +100,16 @@ class Subject:
         return Trial("", Signals(time, values, tuple(columns), tuple(self.units[name] for name in columns)))
 
     def recorded(self, rng: np.random.Generator, model: System, time: np.ndarray, inputs: Mapping[str, Any]) -> Trial:
-        """One trial: stiffnesses vary by 2 %, white noise in all channels; a quotient's grows as 1 over its divisor."""
+        """One trial: stiffnesses vary by 2 %, white noise in all channels; a quotient's grows as 1 over its divisor.
+
+        It is as stated at the median of the forces at which a centre of pressure is recorded.
+        """
         own = {name: value * (1.0 + 0.02 * rng.standard_normal()) for name, value in self.true.items()}
         clean = model.simulate(self.trial(time, inputs, {}), {**own, **self.amplitudes})
         columns = dict(zip(model.outputs, clean.T, strict=True))
-        under = np.maximum(columns["force_y"], LOADED) if "cop_x" in columns else np.ones(len(time))
-        sizes = {name: self.noise[name] * (np.median(under) / under if name == "cop_x" else 1.0) for name in columns}
+        under = np.maximum(columns["force_y"], LOADED) if "cop_x" in columns else np.full(len(time), 2.0 * LOADED)
+        usual = float(np.median(under[under > LOADED]))
+        sizes = {name: self.noise[name] * (usual / under if name == "cop_x" else 1.0) for name in columns}
         noisy = {name: y + sizes[name] * rng.standard_normal(len(time)) for name, y in columns.items()}
         seen = {name: x + self.input_noise[name] * rng.standard_normal(len(time)) for name, x in inputs.items()}
         return self.trial(time, seen, noisy)

@@ -207,7 +207,7 @@ class Seen:
 
 def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain: int) -> list[Any]:
     """Whitening of every trial; those from `plain` on are staged."""
-    from geocontact.gap.case.noise_sources import noise_spread, signal_size
+    from geocontact.gap.case.noise_sources import noise_spread, quotient_noise, signal_size
     from geocontact.gap.case.placement import placement
     from geocontact.gap.case.refit import Measured, derivatives
     from geocontact.gap.case.whitening import Whitening, propagated_input_noise
@@ -220,7 +220,8 @@ def whitenings(problem: Any, lead: Any, trials: Sequence[Any], stage: Any, plain
         system = problem.system if k < plain else stage(problem.system)
         measured = Measured.of(system, [trial], problem.calibration.rough)
         heard = propagated_input_noise(system, trial, base, problem.passed, problem.left)
-        spread = noise_spread(system, measured.outputs, problem.calibration.rough)[0]
+        shape = quotient_noise(system, problem.recorded.outputs, problem.calibration.rough)
+        spread = noise_spread(system, measured.outputs, shape)[0]
         layout = Layout.of(trial.time, measured.present[0], heard, spread, signal_size(measured.outputs)[0])
         movable = measured_inputs(problem.recorded.trials, system.inputs)
         placed = placement(system, [trial], base, movable, problem.calibration.rough)[0]

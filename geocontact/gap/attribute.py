@@ -30,6 +30,7 @@ from geocontact.gap.selection.verdict import (
     Answer,
     answer,
     borne_out,
+    contradicted,
     most_of,
     ranking,
     with_mistake,
@@ -220,10 +221,13 @@ def _answered(
     rest = contest.rest if best.judged is leader else surrogate(clean, best.judged)
     missing = contest.rest if leader is contest.first else surrogate(clean, contest.first)
     left = _believed(rules, best, rest) if best is base or rules.adds(rest, best) else 0.0
-    possible = ranking(base, gaining, shares, variants, {c.label for c in gaining if rules.ruled_out(c)})
+    ruled_out = {c.label for c in gaining if rules.ruled_out(c)}
+    possible = ranking(base, gaining, shares, variants, ruled_out)
+    harmful = ranking(base, gaining, shares, variants, {c.label for c in gaining if c.label not in ruled_out})
     little = {label for label, why in objections.items() if why == TOO_LITTLE}
     unnamed, known = _believed(rules, base, missing), most_of(possible, little)
-    said = with_refused(answer(held, unnamed, max((each.part for each in odd), default=0.0), left, known), possible)
+    said = answer(held, unnamed, max((each.part for each in odd), default=0.0), left, known)
+    said = with_refused(contradicted(said, held, harmful), possible)
     remaining = {"none": missing, best.label: rest}
     if data_error is not None:
         said = with_mistake(said, data_error.candidate.name)

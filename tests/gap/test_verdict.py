@@ -16,6 +16,7 @@ from geocontact.gap.selection.verdict import (
     BEYOND,
     answer,
     borne_out,
+    contradicted,
     most_of,
     ranking,
     with_mistake,
@@ -73,6 +74,27 @@ def test_what_may_not_be_named_keeps_its_place_in_the_ranking() -> None:
     assert told.probabilities == silent.probabilities
     named = said(contender(25.0, "preload"))
     assert with_refused(named, everyone) == named, "where something is named it stands alone"
+
+
+def test_nothing_is_named_where_an_effect_that_harms_a_channel_gains_far_more() -> None:
+    """A foot whose compliance gained 1603 nats, and predicted one channel of two trials worse, was a lag with 0.95."""
+    counts = {one.name: 1 for one in OFFERED.values()}
+    named = contender(40.0, "preload")
+    held = ranking(contender(0.0), [named], shares(named), counts)
+    sure = said(named)
+    for nats, verdict, effects in ((2.0 * 40.0 + SURE - 0.1, "explained", ("preload",)), (90.0, "unknown", ())):
+        harms = contender(nats, "damping")
+        told = contradicted(sure, held, ranking(contender(0.0), [harms], shares(harms), counts))
+        assert (told.verdict, told.effects) == (verdict, effects)
+    assert told.ambiguity == ("damping", "preload")
+    assert sum(told.probabilities.values()) == pytest.approx(1.0)
+    assert max(told.probabilities, key=lambda name: told.probabilities[name]) == "unknown"
+    nobody = ranking(contender(0.0), [], {}, counts)
+    assert contradicted(sure, held, nobody) is sure
+    pair = contender(900.0, "damping", "dead_zone")
+    both = ranking(contender(0.0), [pair], shares(pair), counts)
+    assert both.living
+    assert contradicted(sure, held, both) is sure, "one of the two may be what is named"
 
 
 def test_what_a_known_effect_explains_is_nothing_unknown_though_it_is_too_small_to_be_named() -> None:

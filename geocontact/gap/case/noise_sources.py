@@ -7,7 +7,9 @@ less, and it has the effect in it that a base model misses. With a sample as it 
 it weighs: one that is too high would weigh less than one that is as much too low.
 
 A centre of pressure is q = M/F. Noise of the force of standard deviation s moves the moment about the middle of the
-foot by about s a, a the half-range of q; so q has the noise (s a / F) beside what it has at large forces.
+foot by about s a, a the half-range of q; so q has the noise (s a / F) beside what it has at large forces. Noise of the
+moment itself is seen: of the third of the samples with the smallest forces and of that with the largest, fourth
+differences tell how much of the noise grows as 1/F.
 
 Hum has the frequency of the mains, 50 or 60 Hz, as sampling shows it: the columns are sines at the times of the
 samples, so that sampling folds them as it folds the hum, and unevenly sampled hum is no line at all. Size and phase are
@@ -23,6 +25,7 @@ Science and Engineering, 1998, ch. 5). At the ends the order is lower and the es
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -85,20 +88,26 @@ def seen_growth(
     outputs
         Measured, per trial.
     spread
-        How many times its level the noise of each sample is for other reasons (`quotient_noise`).
+        How many times its level the noise of each sample is for other reasons (`noise_spread`).
     """
     grown = np.zeros(outputs[0].shape[1])
     sizes = signal_size(outputs)
     for c in range(len(grown)):
         rows = [_differences(y[:, c], size[:, c], s[:, c]) for y, size, s in zip(outputs, sizes, spread, strict=True)]
         rough, size = np.concatenate(rows, axis=1)
-        low, high = np.quantile(size, np.array([1.0, 2.0]) / 3.0) if len(size) else (0.0, 0.0)
+        low, high = _thirds(size)
         if high > low:
             parts = size <= low, size >= high
             noise = [typical_noise(rough[part], ORDER) ** 2 for part in parts]
             signal = [np.mean(size[part] ** 2) for part in parts]
             grown[c] = np.sqrt(max(noise[1] - noise[0], 0.0) / (signal[1] - signal[0]))
     return grown
+
+
+def _thirds(size: Float[np.ndarray, " n"]) -> tuple[float, float]:
+    """What a third of the samples are at most, and a third at least; 0 without any."""
+    low, high = np.quantile(size, np.array([1.0, 2.0]) / 3.0) if len(size) else (0.0, 0.0)
+    return float(low), float(high)
 
 
 def _differences(
@@ -112,10 +121,74 @@ def _differences(
     return np.asarray(both[:, np.isfinite(rough)])
 
 
-def noise_spread(
+@dataclass(frozen=True)
+class QuotientNoise:
+    """Noise of an output that is a quotient q = M/F: sqrt(c² + (m/F)²).
+
+    Parameters
+    ----------
+    constant
+        c, in the unit of q.
+    moment
+        m, in that of M.
+    least
+        Magnitude that F is taken for where it is smaller: that of its own noise.
+    """
+
+    constant: float
+    moment: float
+    least: float
+
+    @classmethod
+    def of(
+        cls,
+        quotients: Sequence[Float[np.ndarray, " _"]],
+        divisors: Sequence[Float[np.ndarray, " _"]],
+        rough: float,
+        least: float,
+    ) -> QuotientNoise:
+        """What recordings show, one per trial; `rough` is the quotient's typical noise, `least` the divisor's.
+
+        The moment has the noise of the divisor times half the range of the quotient at the least.
+        """
+        larger = [1.0 / np.maximum(np.abs(each), least) for each in divisors]
+        share, middle = _grown_share(quotients, larger)
+        low, high = usual_range(np.concatenate(quotients))
+        seen = float(np.sqrt(share)) * rough / middle
+        return cls(float(np.sqrt(1.0 - share)) * rough, max(seen, least * 0.5 * (high - low)), least)
+
+    def at(self, divisor: Float[np.ndarray, " t"]) -> Float[np.ndarray, " t"]:
+        """Standard deviation of each sample."""
+        return np.asarray(np.hypot(self.constant, self.moment / np.maximum(np.abs(divisor), self.least)))
+
+
+def _grown_share(
+    quotients: Sequence[Float[np.ndarray, " _"]], larger: Sequence[Float[np.ndarray, " _"]]
+) -> tuple[float, float]:
+    """Share of a quotient's typical variance of noise that grows with one over its divisor, which `larger` is per trial
+    and sample, and the median of that; 0 and 1 where fewer than `FEWEST` fourth differences are in a third.
+    """
+    rows = [_differences(q, each, np.ones_like(each)) for q, each in zip(quotients, larger, strict=True)]
+    uneven, size = np.concatenate(rows, axis=1)
+    low, high = _thirds(size)
+    far, near = size <= low, size >= high
+    if min(far.sum(), near.sum()) < FEWEST:
+        return 0.0, 1.0
+    middle = float(np.median(size))
+    least = typical_noise(uneven[far], ORDER) ** 2  # c² + m² s
+    per_size = typical_noise(uneven[near] / size[near], ORDER) ** 2  # m² + c² t
+    s, t = float(np.median(size[far])) ** 2, float(np.median(size[near] ** -2.0))
+    if s * t >= 1.0:
+        return 0.0, middle
+    grown = max(per_size - least * t, 0.0) / (1.0 - s * t)
+    even = max(least - grown * s, 0.0)
+    return float(grown * middle**2 / max(grown * middle**2 + even, np.finfo(float).tiny)), middle
+
+
+def quotient_noise(
     system: System, outputs: Sequence[Float[np.ndarray, "_ c"]], rough: Float[np.ndarray, " c"]
-) -> list[Float[np.ndarray, "_ c"]]:
-    """Per trial, how many times its median each sample's sensor noise is; 1 for outputs that are no quotient.
+) -> dict[str, QuotientNoise]:
+    """Noise of each output that is a quotient and was measured.
 
     Parameters
     ----------
@@ -124,15 +197,31 @@ def noise_spread(
     rough
         Noise of each output where it is typical.
     """
-    spread = [np.ones_like(each) for each in outputs]
+    found = {}
     for name, divisor in system.quotients.items():
         c, d = system.outputs.index(name), system.outputs.index(divisor)
-        together = np.concatenate([each[:, c] for each in outputs])
-        if not np.isfinite(together).any():
-            continue
-        low, high = usual_range(together)
-        moment = rough[d] * 0.5 * (high - low)
-        own = [np.hypot(rough[c], moment / np.maximum(np.abs(each[:, d]), rough[d])) for each in outputs]
+        both = [each[:, c] for each in outputs], [each[:, d] for each in outputs]
+        if np.isfinite(np.concatenate(both[0])).any():
+            found[name] = QuotientNoise.of(*both, float(rough[c]), float(rough[d]))
+    return found
+
+
+def noise_spread(
+    system: System, outputs: Sequence[Float[np.ndarray, "_ c"]], noise: Mapping[str, QuotientNoise]
+) -> list[Float[np.ndarray, "_ c"]]:
+    """Per trial, how many times its median each sample's sensor noise is; 1 for outputs that are no quotient.
+
+    Parameters
+    ----------
+    outputs
+        Measured or predicted, per trial.
+    noise
+        Of quotients (`quotient_noise`).
+    """
+    spread = [np.ones_like(each) for each in outputs]
+    for name, one in noise.items():
+        c, d = system.outputs.index(name), system.outputs.index(system.quotients[name])
+        own = [one.at(each[:, d]) for each in outputs]
         measured = np.concatenate([s[np.isfinite(each[:, c])] for s, each in zip(own, outputs, strict=True)])
         typical = float(np.nanmedian(measured))
         for made, each in zip(spread, own, strict=True):

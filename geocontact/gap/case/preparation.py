@@ -19,6 +19,7 @@ from geocontact.data.trial import Trial
 from geocontact.gap.case.change_amplitude import amplitude
 from geocontact.gap.case.noise_sources import (
     noise_spread,
+    quotient_noise,
     rough_noise,
     seen_growth,
     signal_size,
@@ -59,7 +60,8 @@ def with_smoothed_rates(
         sensitivity(system, trial, plain.values, ()).to_rate.any() for trial in measured.trials
     ):
         return system
-    spread, signal = noise_spread(system, measured.outputs, rough), signal_size(measured.outputs)
+    shape = quotient_noise(system, measured.outputs, rough)
+    spread, signal = noise_spread(system, measured.outputs, shape), signal_size(measured.outputs)
     beliefs = usual_levels(system, stated, rough, seen, most, seen_growth(measured.outputs, spread))
     usual = np.array([varies_by(system, p, plain.values[p.name]) for p in free(system)])
 
@@ -251,7 +253,8 @@ def _posed(
     trials = together(calm.calibration, calm.evaluation).trials
     placed = placement(system, trials, plain.values, list(inputs.shown), recorded.rough)
     own = [varies_by(system, p, plain.values[p.name]) for p in free(system)]
-    spread, signal = noise_spread(system, recorded.outputs, recorded.rough), signal_size(recorded.outputs)
+    shape = quotient_noise(system, recorded.outputs, recorded.rough)
+    spread, signal = noise_spread(system, recorded.outputs, shape), signal_size(recorded.outputs)
     noisy = spread[: len(heard.trials)], signal[: len(heard.trials)]
     growth = seen_growth(recorded.outputs, spread)
     return Problem(

@@ -26,7 +26,7 @@ from geocontact.chain.effect import Candidate
 from geocontact.chain.system import System
 from geocontact.data.diagnosis import NextExperiment
 from geocontact.gap.attribute import Attribution
-from geocontact.gap.case.noise_sources import noise_spread, signal_size
+from geocontact.gap.case.noise_sources import noise_spread, quotient_noise, signal_size
 from geocontact.gap.case.placement import placement
 from geocontact.gap.case.problem import Problem
 from geocontact.gap.case.refit import ROUNDS, Measured, RefitSearch, Whiten, derivatives
@@ -334,7 +334,8 @@ def _rehearsed(problem: Problem, lead: Judged, one: Experiment, pairs: list[Mode
     staged = one.staged(problem.system)
     base = {name: lead.model.values[name] for name in problem.plain.values}
     expected = [staged.simulate(trial, base)]
-    spread, signal = noise_spread(staged, expected, rough)[0], signal_size(expected)[0]
+    shape = quotient_noise(staged, problem.recorded.outputs, rough)  # what is predicted has no noise
+    spread, signal = noise_spread(staged, expected, shape)[0], signal_size(expected)[0]
     heard = propagated_input_noise(staged, trial, base, problem.passed, problem.left)
     layout = Layout.of(trial.time, present, heard, spread, signal)
     movable = measured_inputs(problem.recorded.trials, staged.inputs)

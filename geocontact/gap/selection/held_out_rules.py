@@ -32,7 +32,7 @@ from jaxtyping import Bool, Float
 from geocontact.chain.effect import Candidate
 from geocontact.chain.system import FAR
 from geocontact.gap.case.change_amplitude import Amplitude, amplitude
-from geocontact.gap.case.noise_sources import measured_columns
+from geocontact.gap.case.noise_sources import measured_columns, noise_spread, quotient_noise
 from geocontact.gap.case.placement import GAIN
 from geocontact.gap.case.plain_fit import Plain, measured_fit, smoothed_fit
 from geocontact.gap.case.problem import Noise, Problem
@@ -128,8 +128,9 @@ class HeldOutRules:
         The same with the noise of the inputs taken off.
     weights
         Of all trials.
-    fitted
-        Residuals of models on the held-out trials, by label, once somebody asked for them.
+    fitted, calmed
+        Residuals of models on the held-out trials, by label, once they were computed: inputs as they were measured, and
+        with their noise taken off.
     """
 
     problem: Problem
@@ -138,6 +139,7 @@ class HeldOutRules:
     calm: list[Float[np.ndarray, "_ c"]]
     weights: tuple[TrialWeight, ...]
     fitted: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
+    calmed: dict[str, list[Float[np.ndarray, "_ c"]]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, problem: Problem, base: Judged) -> HeldOutRules:
@@ -163,22 +165,35 @@ class HeldOutRules:
     def outdone(self, free: Sequence[Contender]) -> dict[str, str]:
         """Objections to models that another with as many effects outdoes, by label.
 
-        It surely leaves less of the squared error on held-out trials, by `LEFT_OVER`: models that predict about the
-        same are not separable by it.
+        It surely leaves less of the squared error on held-out trials, by `LEFT_OVER`, with inputs as they were measured
+        and with their noise taken off: models that predict about the same are not separable by it, and a filter passes
+        less of that noise on, whatever is missing.
         """
         found = {}
         for many in (1, 2):
             alike = [one for one in free if len(one.candidates) == many and one.candidates[0].somewhere is None]
-            scaled = {one.label: [part / self.problem.floor for part in self._after(one)] for one in alike}
-            if not scaled:
+            if not alike:
                 continue
-            best = min(scaled, key=lambda label: sum(float((part**2).sum()) for part in scaled[label]))
-            for label, own in scaled.items():
-                change = [a - b for a, b in zip(own, scaled[best], strict=True)]
-                whole = amplitude(own, change)
-                if whole is not None and whole.better and whole.grown < -LEFT_OVER:
-                    found[label] = f"{best} predicts held-out trials better"
+            best = min(alike, key=lambda one: sum(float((part**2).sum()) for part in self._scaled(self._after(one))))
+            for one in alike:
+                if all(self._surely_less(own(best), own(one)) for own in (self._after, self._calm)):
+                    found[one.label] = f"{best.label} predicts held-out trials better"
         return found
+
+    def _scaled(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
+        """Residuals of the held-out trials in units of the floor; of a quotient in those of its noise, which is high at
+        small divisors: a few samples there would decide.
+        """
+        problem, outputs = self.problem, self.problem.recorded.outputs
+        noise = quotient_noise(problem.system, outputs, problem.recorded.rough)
+        spread = noise_spread(problem.system, outputs, noise)[len(problem.calibration.trials) :]
+        return [part / (problem.floor * own) for part, own in zip(parts, spread, strict=True)]
+
+    def _surely_less(self, best: Sequence[Float[np.ndarray, "_ c"]], other: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
+        """Whether one model surely leaves less of the squared error than another, by `LEFT_OVER`."""
+        before, after = self._scaled(other), self._scaled(best)
+        whole = amplitude(before, [a - b for a, b in zip(before, after, strict=True)])
+        return whole is not None and whole.better and whole.grown < -LEFT_OVER
 
     def adds(self, found: Surrogate, one: Contender) -> bool:
         """Whether a surrogate on top of a model changes enough on held-out trials, beside what the model's effects do.
@@ -275,8 +290,10 @@ class HeldOutRules:
         return ONLY_NOISE if taken_away(before, after) < WORTH_NAMING else ""
 
     def _calm(self, one: Contender) -> list[Float[np.ndarray, "_ c"]]:
-        """Residuals of a model on the held-out trials with the noise of the inputs taken off."""
-        return smoothed_fit(self.problem, one.judged.model, self.problem.floor)
+        """Residuals of a model on the held-out trials with the noise of the inputs taken off; fitted once."""
+        if one.label not in self.calmed:
+            self.calmed[one.label] = smoothed_fit(self.problem, one.judged.model, self.problem.floor)
+        return self.calmed[one.label]
 
     def _cleared(self, parts: Sequence[Float[np.ndarray, "_ c"]]) -> list[Float[np.ndarray, "_ c"]]:
         """Residuals on held-out trials without what the base parameters differ by in each trial."""

@@ -182,6 +182,30 @@ def with_refused(said: Answer, held: Ranking) -> Answer:
     return replace(said, ambiguity=tuple(dict.fromkeys([*gaining, *said.ambiguity]))[:MOST])
 
 
+def contradicted(said: Answer, held: Ranking, harmful: Ranking) -> Answer:
+    """The answer, unknown where a single effect that harms a channel gains more than twice what is named gains.
+
+    The evidence speaks for that effect, a channel of the held-out trials against it: that does not make another effect
+    the likely one. All of them are in question, and the probability of what was named is that of something unknown.
+
+    Parameters
+    ----------
+    held
+        Who may be named.
+    harmful
+        Who gains and surely predicts a channel of the held-out trials worse.
+    """
+    alone = [one for one in harmful.living if len(one.candidates) == 1 and not one.cut_short]
+    best = max(alone, key=lambda one: harmful.gains[one.label], default=None)
+    if best is None or not said.effects or said.chosen.mistaken:
+        return said
+    if harmful.gains[best.label] <= 2.0 * held.gains[said.chosen.label] + SURE:
+        return said
+    odds = said.probabilities | dict.fromkeys(said.effects, 0.0)
+    odds["unknown"] = odds.get("unknown", 0.0) + sum(said.probabilities[name] for name in said.effects)
+    return Answer("unknown", (), _normal(odds), tuple(dict.fromkeys([*best.names, *said.ambiguity]))[:MOST], held.base)
+
+
 def with_mistake(said: Answer, mistake: str) -> Answer:
     """The answer once a mistake in the data was undone first: the mistake is named, and what else was found with it.
 
