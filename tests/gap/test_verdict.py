@@ -84,13 +84,13 @@ def test_nothing_is_named_where_an_effect_that_harms_a_channel_gains_far_more() 
     sure = said(named)
     for nats, verdict, effects in ((2.0 * 40.0 + SURE - 0.1, "explained", ("preload",)), (90.0, "unknown", ())):
         harms = contender(nats, "damping")
-        told = contradicted(sure, held, ranking(contender(0.0), [harms], shares(harms), counts))
-        assert (told.verdict, told.effects) == (verdict, effects)
-    assert told.ambiguity == ("damping", "preload")
-    assert sum(told.probabilities.values()) == pytest.approx(1.0)
-    assert max(told.probabilities, key=lambda name: told.probabilities[name]) == "unknown"
-    nobody = ranking(contender(0.0), [], {}, counts)
-    assert contradicted(sure, held, nobody) is sure
+        found = contradicted(sure, held, ranking(contender(0.0), [harms], shares(harms), counts))
+        assert (found.verdict, found.effects) == (verdict, effects)
+    assert found.ambiguity == ("damping", "preload")
+    assert sum(found.probabilities.values()) == pytest.approx(1.0)
+    assert max(found.probabilities, key=lambda name: found.probabilities[name]) == "unknown"
+    without = ranking(contender(0.0), [], {}, counts)
+    assert contradicted(sure, held, without) is sure
     pair = contender(900.0, "damping", "dead_zone")
     both = ranking(contender(0.0), [pair], shares(pair), counts)
     assert both.living

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -184,10 +185,14 @@ class HeldOutRules:
         """Residuals of the held-out trials in units of the floor; of a quotient in those of its noise, which is high at
         small divisors: a few samples there would decide.
         """
+        return [part / (self.problem.floor * own) for part, own in zip(parts, self._spread, strict=True)]
+
+    @cached_property
+    def _spread(self) -> list[Float[np.ndarray, "_ c"]]:
+        """How many times its level the noise of each sample of the held-out trials is."""
         problem, outputs = self.problem, self.problem.recorded.outputs
         noise = quotient_noise(problem.system, outputs, problem.recorded.rough)
-        spread = noise_spread(problem.system, outputs, noise)[len(problem.calibration.trials) :]
-        return [part / (problem.floor * own) for part, own in zip(parts, spread, strict=True)]
+        return noise_spread(problem.system, outputs, noise)[len(problem.calibration.trials) :]
 
     def _surely_less(self, best: Sequence[Float[np.ndarray, "_ c"]], other: Sequence[Float[np.ndarray, "_ c"]]) -> bool:
         """Whether one model surely leaves less of the squared error than another, by `LEFT_OVER`."""
